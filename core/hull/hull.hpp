@@ -1,0 +1,70 @@
+// What the flow solver may ask of a hull: how far is a point from its surface, and how much of a small
+// oriented box is solid. All in hull axes (y port, z up from the baseline; 3-D also x forward).
+//
+// Thread-safe after construction (const everywhere).
+#pragma once
+
+#include <memory>
+
+#include "core/base/vec.hpp"
+
+namespace seaway::hull {
+
+template <int Dim>
+struct Box {
+  Vec<Dim> lower, upper;
+};
+
+/// A control volume of the grid as the hull sees it: the grid's axes are rotated against the hull's.
+template <int Dim>
+struct OrientedBox {
+  Vec<Dim> centre;
+  Vec<Dim> half;                             ///< half edges along its own axes [m]
+  Eigen::Matrix<double, Dim, Dim> axes;      ///< columns: its axes (grid axes) in hull axes
+};
+
+/// Solid part of a control volume. Permeability p < 1 makes the inside of a compartment solid by 1 - p.
+template <int Dim>
+struct SolidPart {
+  double volume = 0;                         ///< [m^Dim]
+  Vec<Dim> moment = Vec<Dim>::Zero();        ///< integral of x over the solid part, hull axes
+};
+
+/// Half space n.x <= d in hull axes: the water side of an interface plane.
+template <int Dim>
+struct HalfSpace {
+  Vec<Dim> normal;
+  double d = 0;
+};
+
+/// The piece of the hull inside a box: made once per mesh block so that its queries are cheap.
+template <int Dim>
+class HullPatch {
+ public:
+  virtual ~HullPatch() = default;
+  /// Exact in 2-D (polygon clipping).
+  virtual SolidPart<Dim> solid_part(const OrientedBox<Dim>& cv) const = 0;
+  /// Solid volume inside both the control volume and the half space.
+  virtual double solid_volume_below(const OrientedBox<Dim>& cv, const HalfSpace<Dim>& water) const = 0;
+  /// Solid fraction (0..1) of the face of `cv` on side `high` (false: lower) of its own axis `axis`.
+  virtual double solid_face_fraction(const OrientedBox<Dim>& cv, int axis, bool high) const = 0;
+};
+
+template <int Dim>
+class Hull {
+ public:
+  virtual ~Hull() = default;
+  /// Signed distance to the nearest wall [m], > 0 in water or air (also inside compartments), < 0 in solid.
+  /// Interpolated from a table near the hull (error below 2 % of the table's spacing away from
+  /// corners); beyond its margin any value larger than the margin.
+  virtual double signed_distance(const Vec<Dim>& x) const = 0;
+  /// Gradient of the distance (points into the fluid), not normalised.
+  virtual Vec<Dim> distance_gradient(const Vec<Dim>& x) const = 0;
+  virtual std::unique_ptr<HullPatch<Dim>> patch(const Box<Dim>& box) const = 0;
+  virtual Box<Dim> bounds() const = 0;
+  /// Compartment index at a point, or -1 (sea, or solid).
+  virtual int compartment_at(const Vec<Dim>& x) const = 0;
+  virtual int n_compartments() const = 0;
+};
+
+}  // namespace seaway::hull
