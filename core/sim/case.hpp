@@ -114,7 +114,7 @@ struct RefinementBox {
   Vec3 lower{0, 0, 0}, upper{0, 0, 0};
 };
 
-/// Cells are the base cell halved until they are not larger than wanted (to 1 %).
+/// Cells are the base cell halved until they are not larger than wanted (to 12 %, see mesh::make_tank_grid).
 struct MeshRule {
   double hull_cell = 0;              ///< in the region swept by the hull; 0: no rule
   double hull_margin = 0;            ///< beyond the swept region [m]; 0: 8 hull cells

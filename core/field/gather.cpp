@@ -1,0 +1,244 @@
+#include "core/field/gather.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seaway::field {
+namespace {
+
+using mesh::coarser_neighbour;
+using mesh::no_block;
+
+template <int Dim>
+IVec<Dim> neighbour_offset(int entry) {
+  IVec<Dim> off{};
+  for (int a = 0; a < Dim; ++a) {
+    off[a] = entry % 3 - 1;
+    entry /= 3;
+  }
+  return off;
+}
+
+template <class T>
+T minmod(T a, T b) {
+  if (!(a * b > 0)) return 0;
+  return std::abs(a) < std::abs(b) ? a : b;
+}
+
+/// Ranges [lower, upper) of the entries that neighbour `off` supplies. `face_axis` < 0: cells.
+template <int Dim>
+void region_of(const IVec<Dim>& off, int layers, int face_axis, IVec<Dim>& lower, IVec<Dim>& upper) {
+  constexpr int n = BlockShape<Dim>::n;
+  for (int a = 0; a < Dim; ++a) {
+    const int extra = a == face_axis;  // faces 0..N belong to the block itself
+    if (off[a] < 0) lower[a] = -layers, upper[a] = 0;
+    else if (off[a] == 0) lower[a] = 0, upper[a] = n + extra;
+    else lower[a] = n + extra, upper[a] = n + extra + layers;
+  }
+}
+
+template <class T, int Dim>
+void copy_region(const T* source, const IVec<Dim>& strides, const IVec<Dim>& shift, const IVec<Dim>& lower,
+                 const IVec<Dim>& upper, T* out) {
+  const int count = upper[0] - lower[0];
+  for_rows<Dim>(lower, upper, [&](const IVec<Dim>& row) {
+    IVec<Dim> from = row;
+    for (int a = 0; a < Dim; ++a) from[a] -= shift[a];
+    const T* s = source + offset<Dim>(from, strides);
+    T* d = out + ScratchShape<Dim>::at(row);
+    for (int i = 0; i < count; ++i) d[i] = s[i];
+  });
+}
+
+/// The surroundings of a block as its parent's level has them, in coarse cells counted from the block's
+/// lower corner: entries -2 .. N/2 + 2 along each axis.
+template <class T, int Dim>
+struct CoarsePatch {
+  static constexpr int half = BlockShape<Dim>::n / 2;
+  static constexpr int edge = half + 5;
+  T data[Dim == 2 ? edge * edge : edge * edge * edge];
+  static int at(const IVec<Dim>& i) {
+    int o = 0, m = 1;
+    for (int a = 0; a < Dim; ++a, m *= edge) o += (i[a] + 2) * m;
+    return o;
+  }
+  T operator()(const IVec<Dim>& i) const { return data[at(i)]; }
+};
+
+template <class T, int Dim, class Source>
+void fill_patch(const Forest<Dim>& forest, int b, int face_axis, Source&& source, const IVec<Dim>& strides,
+                CoarsePatch<T, Dim>& patch) {
+  constexpr int n = BlockShape<Dim>::n;
+  constexpr int half = n / 2;
+  const Block<Dim>& fine = forest.block(b);
+  const Block<Dim>& parent = forest.block(fine.parent);
+  IVec<Dim> base{};  // lower corner of the block in the parent's cells
+  for (int a = 0; a < Dim; ++a) base[a] = (fine.coord[a] & 1) * half;
+  IVec<Dim> lower = filled<Dim>(-2), upper = filled<Dim>(half + 2);
+  if (face_axis >= 0) ++upper[face_axis];
+  for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
+    int entry = 0, power = 1;
+    IVec<Dim> cell{};
+    for (int a = 0; a < Dim; ++a, power *= 3) {
+      cell[a] = base[a] + i[a];
+      const int last = a == face_axis ? n : n - 1;
+      int off = 0;
+      if (cell[a] < 0) off = -1;
+      else if (cell[a] > last) off = 1;
+      entry += (off + 1) * power;
+    }
+    int nb = parent.neighbour[static_cast<std::size_t>(entry)];
+    if (nb < 0) {  // outside the tank, or two levels coarser: nearest value that is there
+      IVec<Dim> inside{};
+      for (int a = 0; a < Dim; ++a) inside[a] = std::clamp(cell[a], 0, a == face_axis ? n : n - 1);
+      patch.data[CoarsePatch<T, Dim>::at(i)] = source(fine.parent)[offset<Dim>(inside, strides)];
+      return;
+    }
+    const IVec<Dim> off = neighbour_offset<Dim>(entry);
+    for (int a = 0; a < Dim; ++a) cell[a] -= off[a] * n;
+    patch.data[CoarsePatch<T, Dim>::at(i)] = source(nb)[offset<Dim>(cell, strides)];
+  });
+}
+
+int floor_half(int i) { return i >= 0 ? i / 2 : -((1 - i) / 2); }
+
+template <class T, int Dim>
+T limited_slope(const CoarsePatch<T, Dim>& patch, const IVec<Dim>& c, int axis) {
+  IVec<Dim> lo = c, hi = c;
+  --lo[axis];
+  ++hi[axis];
+  return minmod(patch(c) - patch(lo), patch(hi) - patch(c));
+}
+
+/// Fine cell from the coarse patch: the coarse value plus limited slopes a quarter cell along each axis.
+template <class T, int Dim>
+T interpolate_cell(const CoarsePatch<T, Dim>& patch, const IVec<Dim>& i) {
+  IVec<Dim> c{};
+  for (int a = 0; a < Dim; ++a) c[a] = floor_half(i[a]);
+  T value = patch(c);
+  for (int a = 0; a < Dim; ++a) {
+    const T slope = limited_slope<T, Dim>(patch, c, a);
+    value += (i[a] - 2 * c[a] == 0 ? T(-0.25) : T(0.25)) * slope;
+  }
+  return value;
+}
+
+/// Fine face: on a coarse face plane as interpolate_cell across the other axes, midway the mean of two.
+template <class T, int Dim>
+T interpolate_face(const CoarsePatch<T, Dim>& patch, const IVec<Dim>& i, int axis) {
+  IVec<Dim> c{};
+  for (int a = 0; a < Dim; ++a) c[a] = floor_half(i[a]);
+  const bool between = i[axis] - 2 * c[axis] != 0;
+  T value = 0;
+  for (int side = 0; side <= (between ? 1 : 0); ++side) {
+    IVec<Dim> f = c;
+    f[axis] += side;
+    T v = patch(f);
+    for (int a = 0; a < Dim; ++a) {
+      if (a == axis) continue;
+      const T slope = limited_slope<T, Dim>(patch, f, a);
+      v += (i[a] - 2 * c[a] == 0 ? T(-0.25) : T(0.25)) * slope;
+    }
+    value += v;
+  }
+  return between ? T(0.5) * value : value;
+}
+
+/// Mirrors what lies outside the tank, axis after axis, so that corners come out as well.
+template <class T, int Dim>
+void mirror(const Block<Dim>& block, int layers, int face_axis, const Boundaries<Dim>* boundaries, T* out) {
+  constexpr int n = BlockShape<Dim>::n;
+  for (int a = 0; a < Dim; ++a) {
+    for (int side = 0; side < 2; ++side) {
+      if (block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))] != no_block) continue;
+      IVec<Dim> lower = filled<Dim>(-layers), upper = filled<Dim>(n + layers);
+      if (face_axis >= 0) ++upper[face_axis];
+      lower[a] = 0;
+      upper[a] = 1;
+      const int stride = ScratchShape<Dim>::stride(a);
+      for_rows<Dim>(lower, upper, [&](const IVec<Dim>& row) {
+        const int count = a == 0 ? 1 : upper[0] - lower[0];
+        IVec<Dim> at = row;
+        for (int layer = 1; layer <= layers; ++layer) {
+          if (a == face_axis) {
+            const int face = side == 0 ? 0 : n;
+            at[a] = face;
+            const T* base = out + ScratchShape<Dim>::at(at);
+            const int step = side == 0 ? stride : -stride;
+            T* ghost = out + ScratchShape<Dim>::at(at) - layer * step;
+            const bool open = boundaries->kind[static_cast<std::size_t>(a)][static_cast<std::size_t>(side)] == BoundaryKind::open;
+            for (int i = 0; i < count; ++i)
+              ghost[i] = open ? base[i] : 2 * base[i] - base[i + layer * step];
+          } else {
+            at[a] = side == 0 ? layer - 1 : n - layer;
+            const T* inside = out + ScratchShape<Dim>::at(at);
+            at[a] = side == 0 ? -layer : n - 1 + layer;
+            T* ghost = out + ScratchShape<Dim>::at(at);
+            for (int i = 0; i < count; ++i) ghost[i] = inside[i];
+          }
+        }
+      });
+    }
+  }
+}
+
+template <class T, int Dim, class Source>
+void gather(const Forest<Dim>& forest, int b, int layers, int face_axis, Source&& source,
+            const IVec<Dim>& strides, const Boundaries<Dim>* boundaries, Scratch<T, Dim>& out) {
+  constexpr int n = BlockShape<Dim>::n;
+  const Block<Dim>& block = forest.block(b);
+  bool boundary = false;
+  CoarsePatch<T, Dim> patch;
+  bool patch_filled = false;
+  for (int entry = 0; entry < BlockShape<Dim>::neighbours; ++entry) {
+    const int nb = entry == BlockShape<Dim>::neighbours / 2 ? b : block.neighbour[static_cast<std::size_t>(entry)];
+    if (nb == no_block) {
+      boundary = true;
+      continue;
+    }
+    const IVec<Dim> off = neighbour_offset<Dim>(entry);
+    IVec<Dim> lower, upper;
+    region_of<Dim>(off, layers, face_axis, lower, upper);
+    if (nb >= 0) {
+      IVec<Dim> shift = off;
+      for (int a = 0; a < Dim; ++a) shift[a] *= n;
+      copy_region<T, Dim>(source(nb), strides, shift, lower, upper, out.data);
+      continue;
+    }
+    if (!patch_filled) {
+      fill_patch<T, Dim>(forest, b, face_axis, source, strides, patch);
+      patch_filled = true;
+    }
+    for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
+      out(i) = face_axis < 0 ? interpolate_cell<T, Dim>(patch, i)
+                             : interpolate_face<T, Dim>(patch, i, face_axis);
+    });
+  }
+  if (boundary) mirror<T, Dim>(block, layers, face_axis, boundaries, out.data);
+}
+
+}  // namespace
+
+template <class T, int Dim>
+void gather_cells(const Forest<Dim>& forest, const CellField<T, Dim>& f, int b, int layers,
+                  Scratch<T, Dim>& out) {
+  gather<T, Dim>(forest, b, layers, -1, [&](int nb) { return f.block(nb); }, cell_strides<Dim>(), nullptr, out);
+}
+
+template <class T, int Dim>
+void gather_faces(const Forest<Dim>& forest, const FaceField<T, Dim>& f, int axis, int b, int layers,
+                  const Boundaries<Dim>& boundaries, Scratch<T, Dim>& out) {
+  gather<T, Dim>(forest, b, layers, axis, [&](int nb) { return f.block(axis, nb); }, face_strides<Dim>(axis),
+                 &boundaries, out);
+}
+
+#define SEAWAY_INSTANTIATE(T, D)                                                                          \
+  template void gather_cells<T, D>(const Forest<D>&, const CellField<T, D>&, int, int, Scratch<T, D>&);   \
+  template void gather_faces<T, D>(const Forest<D>&, const FaceField<T, D>&, int, int, int,               \
+                                   const Boundaries<D>&, Scratch<T, D>&);
+SEAWAY_INSTANTIATE(double, 2)
+SEAWAY_INSTANTIATE(double, 3)
+SEAWAY_INSTANTIATE(float, 2)
+SEAWAY_INSTANTIATE(float, 3)
+
+}  // namespace seaway::field

@@ -1,0 +1,88 @@
+#include "core/field/restrict.hpp"
+
+namespace seaway::field {
+namespace {
+
+template <int Dim>
+IVec<Dim> child_base(int child) {
+  IVec<Dim> base{};
+  for (int a = 0; a < Dim; ++a) base[a] = ((child >> a) & 1) * BlockShape<Dim>::n / 2;
+  return base;
+}
+
+}  // namespace
+
+template <class T, int Dim>
+void restrict_cells(const Forest<Dim>& forest, CellField<T, Dim>& f) {
+  constexpr int half = BlockShape<Dim>::n / 2;
+  const IVec<Dim> strides = cell_strides<Dim>();
+  for (const int b : forest.interface_parents()) {
+    T* coarse = f.block(b);
+    for (int c = 0; c < BlockShape<Dim>::children; ++c) {
+      const T* fine = f.block(forest.block(b).child[static_cast<std::size_t>(c)]);
+      const IVec<Dim> base = child_base<Dim>(c);
+      for_box<Dim>(filled<Dim>(0), filled<Dim>(half), [&](const IVec<Dim>& i) {
+        T sum = 0;
+        for (int s = 0; s < BlockShape<Dim>::children; ++s) {
+          IVec<Dim> at{};
+          for (int a = 0; a < Dim; ++a) at[a] = 2 * i[a] + ((s >> a) & 1);
+          sum += fine[offset<Dim>(at, strides)];
+        }
+        IVec<Dim> to{};
+        for (int a = 0; a < Dim; ++a) to[a] = base[a] + i[a];
+        coarse[offset<Dim>(to, strides)] = sum * (T(1) / BlockShape<Dim>::children);
+      });
+    }
+  }
+}
+
+template <class T, int Dim>
+void restrict_faces(const Forest<Dim>& forest, FaceField<T, Dim>& f, int axis) {
+  constexpr int half = BlockShape<Dim>::n / 2;
+  const IVec<Dim> strides = face_strides<Dim>(axis);
+  for (const int b : forest.interface_parents()) {
+    T* coarse = f.block(axis, b);
+    for (int c = 0; c < BlockShape<Dim>::children; ++c) {
+      const T* fine = f.block(axis, forest.block(b).child[static_cast<std::size_t>(c)]);
+      const IVec<Dim> base = child_base<Dim>(c);
+      IVec<Dim> upper = filled<Dim>(half);
+      ++upper[axis];
+      for_box<Dim>(filled<Dim>(0), upper, [&](const IVec<Dim>& i) {
+        T sum = 0;
+        for (int s = 0; s < BlockShape<Dim>::children; ++s) {
+          if ((s >> axis) & 1) continue;
+          IVec<Dim> at{};
+          for (int a = 0; a < Dim; ++a) at[a] = 2 * i[a] + ((s >> a) & 1);
+          sum += fine[offset<Dim>(at, strides)];
+        }
+        IVec<Dim> to{};
+        for (int a = 0; a < Dim; ++a) to[a] = base[a] + i[a];
+        coarse[offset<Dim>(to, strides)] = sum * (T(2) / BlockShape<Dim>::children);
+      });
+    }
+  }
+  for (const mesh::CoarseFace& face : forest.coarse_faces()) {
+    if (face.axis != axis) continue;
+    T* leaf = f.block(axis, face.leaf);
+    const T* parent = f.block(axis, face.parent);
+    IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
+    const int to = face.side == 0 ? 0 : BlockShape<Dim>::n;
+    const int shift = (BlockShape<Dim>::n - 2 * to) * strides[axis];
+    lower[axis] = to;
+    upper[axis] = to + 1;
+    for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
+      const int o = offset<Dim>(i, strides);
+      leaf[o] = parent[o + shift];
+    });
+  }
+}
+
+#define SEAWAY_INSTANTIATE(T, D)                                      \
+  template void restrict_cells<T, D>(const Forest<D>&, CellField<T, D>&); \
+  template void restrict_faces<T, D>(const Forest<D>&, FaceField<T, D>&, int);
+SEAWAY_INSTANTIATE(double, 2)
+SEAWAY_INSTANTIATE(double, 3)
+SEAWAY_INSTANTIATE(float, 2)
+SEAWAY_INSTANTIATE(float, 3)
+
+}  // namespace seaway::field

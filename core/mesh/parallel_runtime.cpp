@@ -1,0 +1,31 @@
+#include "core/mesh/parallel_runtime.hpp"
+
+#include <mpi.h>
+#include <p4est.h>
+
+#include <cstdlib>
+
+namespace seaway::mesh {
+
+ParallelRuntime::ParallelRuntime() {
+  // A single process: keep MPI off the network and away from shared-memory files.
+  setenv("OMPI_MCA_btl", "self", 0);
+  setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
+  setenv("OMPI_MCA_orte_base_help_aggregate", "0", 0);
+  int provided = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+  sc_init(sc_MPI_COMM_WORLD, 0, 0, nullptr, SC_LP_ERROR);
+  p4est_init(nullptr, SC_LP_ERROR);
+}
+
+ParallelRuntime::~ParallelRuntime() {
+  sc_finalize();
+  MPI_Finalize();
+}
+
+std::mutex& p4est_lock() {
+  static std::mutex lock;
+  return lock;
+}
+
+}  // namespace seaway::mesh
