@@ -10,5 +10,7 @@ find_package_handle_standard_args(P4est
 if(P4est_FOUND AND NOT TARGET P4est::P4est)
   add_library(P4est::P4est INTERFACE IMPORTED)
   target_include_directories(P4est::P4est SYSTEM INTERFACE ${P4EST_INCLUDE_DIR})
+  # The deprecated C++ bindings of MPI would have to be linked as well.
+  target_compile_definitions(P4est::P4est INTERFACE OMPI_SKIP_MPICXX=1 MPICH_SKIP_MPICXX=1)
   target_link_libraries(P4est::P4est INTERFACE ${P4EST_LIBRARY} ${SC_LIBRARY} MPI::MPI_C)
 endif()

@@ -1,0 +1,272 @@
+#include "core/linear/multigrid.hpp"
+
+#include <cmath>
+
+namespace seaway::linear {
+
+using field::cell_strides;
+using field::cells_upper;
+using field::face_strides;
+using field::filled;
+using field::for_box;
+using field::for_rows;
+using field::offset;
+
+namespace {
+
+template <int Dim>
+IVec<Dim> root_cells(const mesh::TankGrid<Dim>& grid) {
+  IVec<Dim> n = grid.root_blocks;
+  for (int& x : n) x *= BlockShape<Dim>::n;
+  return n;
+}
+
+/// Lane masks of the two colours along a row.
+template <int N>
+struct Colours {
+  alignas(64) float mask[2][N];
+  constexpr Colours() : mask{} {
+    for (int i = 0; i < N; ++i) {
+      mask[0][i] = i % 2 == 0 ? 1.0f : 0.0f;
+      mask[1][i] = i % 2 == 0 ? 0.0f : 1.0f;
+    }
+  }
+};
+
+/// One colour of Gauss-Seidel on a block in the scratch.
+template <int Dim>
+void half_sweep(const Coefficients<Dim>& k, const float* b, const float* inverse, int colour,
+                Scratch<float, Dim>& z) {
+  constexpr int n = BlockShape<Dim>::n;
+  static constexpr Colours<n> colours;
+  for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
+    int parity = colour;
+    for (int a = 1; a < Dim; ++a) parity += row[a];
+    const float* mask = colours.mask[parity & 1];
+    float* zr = &z(row);
+    float sum[n];
+    neighbour_sums<float, Dim>(k, row, zr, sum, nullptr);
+    const int o = offset<Dim>(row, cell_strides<Dim>());
+    for (int i = 0; i < n; ++i) zr[i] += mask[i] * ((sum[i] + b[o + i]) * inverse[o + i] - zr[i]);
+  });
+}
+
+template <int Dim>
+void store(const Scratch<float, Dim>& z, float* out) {
+  constexpr int n = BlockShape<Dim>::n;
+  for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
+    const float* s = &z(row);
+    float* d = out + offset<Dim>(row, cell_strides<Dim>());
+    for (int i = 0; i < n; ++i) d[i] = s[i];
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+Multigrid<Dim>::Multigrid(const PoissonOperator<Dim>& op)
+    : op_(op), forest_(op.forest()), b_(forest_), z_{CellField<float, Dim>(forest_), CellField<float, Dim>(forest_)},
+      current_(static_cast<std::size_t>(forest_.n_levels()), 0),
+      coarse_leaves_(static_cast<std::size_t>(forest_.n_levels())),
+      first_coarse_face_(static_cast<std::size_t>(forest_.n_blocks()), -1),
+      root_(root_cells(forest_.grid()), forest_.grid().periodic) {
+  const auto& faces = forest_.coarse_faces();
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    int& first = first_coarse_face_[static_cast<std::size_t>(faces[i].leaf)];
+    if (first >= 0) continue;
+    first = static_cast<int>(i);
+    coarse_leaves_[static_cast<std::size_t>(forest_.block(faces[i].leaf).level)].push_back(faces[i].leaf);
+  }
+}
+
+template <int Dim>
+void Multigrid<Dim>::update() {
+  const IVec<Dim> n = root_cells(forest_.grid());
+  for (int b = forest_.level_begin(0); b < forest_.level_begin(1); ++b) {
+    const mesh::Block<Dim>& block = forest_.block(b);
+    for (int axis = 0; axis < Dim; ++axis) {
+      const float* c = op_.coefficients().block(axis, b);
+      auto& to = root_.coefficients(axis);
+      for_box<Dim>(filled<Dim>(0), field::faces_upper<Dim>(axis), [&](const IVec<Dim>& i) {
+        int o = 0, s = 1;
+        for (int a = 0; a < Dim; ++a) {
+          o += (block.coord[a] * BlockShape<Dim>::n + i[a]) * s;
+          s *= n[a] + (a == axis);
+        }
+        to[static_cast<std::size_t>(o)] = c[offset<Dim>(i, face_strides<Dim>(axis))];
+      });
+    }
+  }
+  root_.finish();
+}
+
+template <int Dim>
+void Multigrid<Dim>::smooth_from_zero(int b) {
+  Scratch<float, Dim> z;
+  std::fill(std::begin(z.data), std::end(z.data), 0.0f);
+  const auto k = Coefficients<Dim>::of(op_.coefficients(), b);
+  for (int sweep = 0; sweep < 4; ++sweep)
+    half_sweep<Dim>(k, b_.block(b), op_.inverse_diagonal().block(b), sweep & 1, z);
+  store<Dim>(z, this->z(b));
+}
+
+template <int Dim>
+void Multigrid<Dim>::restrict_residual(int parent) {
+  constexpr int n = BlockShape<Dim>::n, half = n / 2;
+  float* coarse = b_.block(parent);
+  for (int child = 0; child < BlockShape<Dim>::children; ++child) {
+    const int b = forest_.block(parent).child[static_cast<std::size_t>(child)];
+    Scratch<float, Dim> z;
+    load_cells<float, Dim>(this->z(b), z);
+    load_ghosts<float, Dim>(forest_, b, CoarseGhost::zero, [&](int nb) { return this->z(nb); }, z);
+    const auto k = Coefficients<Dim>::of(op_.coefficients(), b);
+    const float* rhs = b_.block(b);
+    IVec<Dim> base{};
+    for (int a = 0; a < Dim; ++a) base[a] = ((child >> a) & 1) * half;
+    // Residuals of 2^(Dim-1) rows are added up, then pairs along the row.
+    for_rows<Dim>(filled<Dim>(0), [] { IVec<Dim> u = filled<Dim>(half); u[0] = 1; return u; }(), [&](const IVec<Dim>& c) {
+      float sum[n] = {};
+      for (int s = 0; s < BlockShape<Dim>::children; s += 2) {
+        IVec<Dim> row{};
+        for (int a = 1; a < Dim; ++a) row[a] = 2 * c[a] + ((s >> a) & 1);
+        float neighbours[n], diagonal[n];
+        const float* zr = &z(row);
+        neighbour_sums<float, Dim>(k, row, zr, neighbours, diagonal);
+        const float* br = rhs + offset<Dim>(row, cell_strides<Dim>());
+        for (int i = 0; i < n; ++i) sum[i] += br[i] - (diagonal[i] * zr[i] - neighbours[i]);
+      }
+      IVec<Dim> to = c;
+      for (int a = 0; a < Dim; ++a) to[a] += base[a];
+      to[0] = base[0];
+      float* out = coarse + offset<Dim>(to, cell_strides<Dim>());
+      for (int i = 0; i < half; ++i) out[i] = sum[2 * i] + sum[2 * i + 1];
+    });
+  }
+}
+
+template <int Dim>
+void Multigrid<Dim>::flux_to_coarse(int level) {
+  constexpr int n = BlockShape<Dim>::n, half = n / 2;
+  const auto& leaves = coarse_leaves_[static_cast<std::size_t>(level)];
+  const auto& faces = forest_.coarse_faces();
+  mesh::parallel_for(static_cast<int>(leaves.size()), forest_.threads(), [&](int l) {
+    const int leaf = leaves[static_cast<std::size_t>(l)];
+    float* b = b_.block(leaf);
+    for (std::size_t f = static_cast<std::size_t>(first_coarse_face_[static_cast<std::size_t>(leaf)]);
+         f < faces.size() && faces[f].leaf == leaf; ++f) {
+      const int axis = faces[f].axis, side = faces[f].side;
+      const mesh::Block<Dim>& parent = forest_.block(faces[f].parent);
+      const IVec<Dim> cs = cell_strides<Dim>(), fs = face_strides<Dim>(axis);
+      for (int child = 0; child < BlockShape<Dim>::children; ++child) {
+        if (((child >> axis) & 1) != (side == 0 ? 1 : 0)) continue;
+        const int fine = parent.child[static_cast<std::size_t>(child)];
+        const float* z = this->z(fine);
+        const float* c = op_.coefficients().block(axis, fine);
+        IVec<Dim> lower, upper;
+        side_box<Dim>(axis, 1 - side, lower, upper);
+        for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
+          IVec<Dim> to{}, face = i;
+          if (side == 0) ++face[axis];
+          for (int a = 0; a < Dim; ++a)
+            to[a] = a == axis ? (side == 0 ? 0 : n - 1) : ((child >> a) & 1) * half + i[a] / 2;
+          b[offset<Dim>(to, cs)] += c[offset<Dim>(face, fs)] * z[offset<Dim>(i, cs)];
+        });
+      }
+    }
+  });
+}
+
+template <int Dim>
+void Multigrid<Dim>::correct(int b) {
+  const mesh::Block<Dim>& block = forest_.block(b);
+  const float* coarse = z(block.parent);
+  float* fine = z(b);
+  IVec<Dim> base{};
+  for (int a = 0; a < Dim; ++a) base[a] = (block.coord[a] & 1) * BlockShape<Dim>::n / 2;
+  for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
+    IVec<Dim> from = base;
+    for (int a = 1; a < Dim; ++a) from[a] += row[a] / 2;
+    const float* s = coarse + offset<Dim>(from, cell_strides<Dim>());
+    float* d = fine + offset<Dim>(row, cell_strides<Dim>());
+    for (int i = 0; i < BlockShape<Dim>::n / 2; ++i) {
+      d[2 * i] += s[i];
+      d[2 * i + 1] += s[i];
+    }
+  });
+}
+
+template <int Dim>
+void Multigrid<Dim>::smooth_again(int b) {
+  const int level = forest_.block(b).level;
+  Scratch<float, Dim> z;
+  load_cells<float, Dim>(this->z(b), z);
+  load_ghosts<float, Dim>(forest_, b, CoarseGhost::value, [&](int nb) { return this->z(nb); }, z);
+  const auto k = Coefficients<Dim>::of(op_.coefficients(), b);
+  for (int sweep = 0; sweep < 4; ++sweep)
+    half_sweep<Dim>(k, b_.block(b), op_.inverse_diagonal().block(b), (sweep + 1) & 1, z);
+  store<Dim>(z, z_[1 - current_[static_cast<std::size_t>(level)]].block(b));
+}
+
+template <int Dim>
+void Multigrid<Dim>::solve_root() {
+  auto& rhs = root_.right_side();
+  const IVec<Dim> n = root_cells(forest_.grid());
+  const auto each = [&](auto&& f) {
+    for (int b = forest_.level_begin(0); b < forest_.level_begin(1); ++b) {
+      const mesh::Block<Dim>& block = forest_.block(b);
+      for_box<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& i) {
+        IVec<Dim> g{};
+        for (int a = 0; a < Dim; ++a) g[a] = block.coord[a] * BlockShape<Dim>::n + i[a];
+        f(b, offset<Dim>(i, cell_strides<Dim>()), g);
+      });
+    }
+  };
+  each([&](int b, int cell, const IVec<Dim>& g) {
+    int o = 0, s = 1;
+    for (int a = 0; a < Dim; ++a) o += g[a] * s, s *= n[a];
+    rhs[static_cast<std::size_t>(o)] = b_.block(b)[cell];
+  });
+  root_.cycle();
+  each([&](int b, int cell, const IVec<Dim>& g) { z(b)[cell] = root_.solution()[static_cast<std::size_t>(root_.at(g))]; });
+}
+
+template <int Dim>
+void Multigrid<Dim>::apply(const CellField<double, Dim>& r) {
+  const int threads = forest_.threads();
+  const double largest = forest_.max_over_leaves(0.0, [&](int b) {
+    double m = 0;
+    const double* x = r.block(b);
+    for (int i = 0; i < BlockShape<Dim>::cells; ++i) m = std::max(m, std::abs(x[i]));
+    return m;
+  });
+  int exponent = 0;
+  if (largest > 0 && std::isfinite(largest)) std::frexp(largest, &exponent);
+  scale_ = std::ldexp(1.0, exponent);
+  const double shrink = std::ldexp(1.0, -exponent);
+  forest_.for_each_leaf([&](int b) {
+    const double* x = r.block(b);
+    float* y = b_.block(b);
+    for (int i = 0; i < BlockShape<Dim>::cells; ++i) y[i] = static_cast<float>(x[i] * shrink);
+  });
+  for (int level = forest_.n_levels() - 1; level >= 1; --level) {
+    const int begin = forest_.level_begin(level), count = forest_.level_begin(level + 1) - begin;
+    mesh::parallel_for(count, threads, [&](int i) { smooth_from_zero(begin + i); });
+    const int coarse = forest_.level_begin(level - 1), n_coarse = begin - coarse;
+    mesh::parallel_for(n_coarse, threads, [&](int i) {
+      if (!forest_.block(coarse + i).leaf) restrict_residual(coarse + i);
+    });
+    flux_to_coarse(level - 1);
+  }
+  solve_root();
+  for (int level = 1; level < forest_.n_levels(); ++level) {
+    const int begin = forest_.level_begin(level), count = forest_.level_begin(level + 1) - begin;
+    mesh::parallel_for(count, threads, [&](int i) { correct(begin + i); });
+    mesh::parallel_for(count, threads, [&](int i) { smooth_again(begin + i); });
+    current_[static_cast<std::size_t>(level)] = 1 - current_[static_cast<std::size_t>(level)];
+  }
+}
+
+template class Multigrid<2>;
+template class Multigrid<3>;
+
+}  // namespace seaway::linear

@@ -1,0 +1,48 @@
+// The preconditioner of the pressure solve: one multigrid V-cycle over all levels of the forest in float,
+// a fast adaptive composite cycle. On level l all blocks of that level, leaves and parents, are smoothed by
+// two red-black Gauss-Seidel sweeps inside each block with the neighbours' old values (additive over blocks,
+// so that neither threads nor block order change a bit); coarse leaves next to them stay frozen.
+// Transfers are piecewise constant. The cycle is symmetric.
+#pragma once
+
+#include "core/linear/dense_multigrid.hpp"
+#include "core/linear/poisson_operator.hpp"
+
+namespace seaway::linear {
+
+template <int Dim>
+class Multigrid {
+ public:
+  explicit Multigrid(const PoissonOperator<Dim>& op);
+  /// After op.finish(): copies the coefficients of the root level.
+  void update();
+  /// One cycle for the right-hand side r on the leaves; the result is read with `solution`.
+  void apply(const CellField<double, Dim>& r);
+  /// z of a leaf, to be multiplied by scale().
+  const float* solution(int b) const { return z_[current_[static_cast<std::size_t>(forest_.block(b).level)]].block(b); }
+  double scale() const { return scale_; }
+
+ private:
+  float* z(int b) { return z_[current_[static_cast<std::size_t>(forest_.block(b).level)]].block(b); }
+  void smooth_from_zero(int b);
+  void restrict_residual(int parent);
+  void flux_to_coarse(int level);
+  void correct(int b);
+  void smooth_again(int b);
+  void solve_root();
+
+  const PoissonOperator<Dim>& op_;
+  const Forest<Dim>& forest_;
+  CellField<float, Dim> b_;
+  std::array<CellField<float, Dim>, 2> z_;
+  std::vector<std::size_t> current_;  ///< by level: which of z_ holds the values
+  std::vector<std::vector<int>> coarse_leaves_;  ///< by level: leaves with a finer neighbour
+  std::vector<int> first_coarse_face_;
+  DenseMultigrid<Dim> root_;
+  double scale_ = 1;
+};
+
+extern template class Multigrid<2>;
+extern template class Multigrid<3>;
+
+}  // namespace seaway::linear

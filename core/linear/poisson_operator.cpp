@@ -1,0 +1,176 @@
+#include "core/linear/poisson_operator.hpp"
+
+namespace seaway::linear {
+
+using field::cell_strides;
+using field::cells_upper;
+using field::face_strides;
+using field::filled;
+using field::for_box;
+using field::for_rows;
+using field::offset;
+
+template <int Dim>
+PoissonOperator<Dim>::PoissonOperator(const Forest<Dim>& forest)
+    : forest_(forest), c_(forest), inverse_diagonal_(forest),
+      first_coarse_face_(static_cast<std::size_t>(forest.n_blocks()), -1) {
+  const auto& faces = forest.coarse_faces();
+  for (std::size_t i = faces.size(); i-- > 0;)
+    first_coarse_face_[static_cast<std::size_t>(faces[i].leaf)] = static_cast<int>(i);
+}
+
+template <int Dim>
+void PoissonOperator<Dim>::restrict_coefficients(int parent) {
+  constexpr int half = BlockShape<Dim>::n / 2;
+  const mesh::Block<Dim>& block = forest_.block(parent);
+  for (int axis = 0; axis < Dim; ++axis) {
+    const IVec<Dim> strides = face_strides<Dim>(axis);
+    float* coarse = c_.block(axis, parent);
+    for (int child = 0; child < BlockShape<Dim>::children; ++child) {
+      const float* fine = c_.block(axis, block.child[static_cast<std::size_t>(child)]);
+      IVec<Dim> upper = filled<Dim>(half);
+      ++upper[axis];
+      for_box<Dim>(filled<Dim>(0), upper, [&](const IVec<Dim>& i) {
+        float sum = 0;
+        for (int s = 0; s < BlockShape<Dim>::children; ++s) {
+          if ((s >> axis) & 1) continue;
+          IVec<Dim> at{};
+          for (int a = 0; a < Dim; ++a) at[a] = 2 * i[a] + ((s >> a) & 1);
+          sum += fine[offset<Dim>(at, strides)];
+        }
+        IVec<Dim> to{};
+        for (int a = 0; a < Dim; ++a) to[a] = ((child >> a) & 1) * half + i[a];
+        coarse[offset<Dim>(to, strides)] = 0.5f * sum;
+      });
+    }
+    // Next to a leaf of its own level the children's distances are 3/4 of the coarse cell, not 1/2.
+    for (int side = 0; side < 2; ++side) {
+      const int nb = block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
+      if (nb < 0 || !forest_.block(nb).leaf) continue;
+      IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
+      lower[axis] = side == 0 ? 0 : BlockShape<Dim>::n;
+      upper[axis] = lower[axis] + 1;
+      const int shift = (BlockShape<Dim>::n - 2 * lower[axis]) * strides[axis];
+      float* leaf = c_.block(axis, nb);
+      for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
+        float& c = coarse[offset<Dim>(i, strides)];
+        c *= 1.5f;
+        leaf[offset<Dim>(i, strides) + shift] = c;
+      });
+    }
+  }
+}
+
+template <int Dim>
+void PoissonOperator<Dim>::finish() {
+  for (int level = forest_.n_levels() - 2; level >= 0; --level) {
+    const int begin = forest_.level_begin(level), end = forest_.level_begin(level + 1);
+    mesh::parallel_for(end - begin, forest_.threads(), [&](int i) {
+      if (!forest_.block(begin + i).leaf) restrict_coefficients(begin + i);
+    });
+  }
+  mesh::parallel_for(forest_.n_blocks(), forest_.threads(), [&](int b) {
+    const auto k = Coefficients<Dim>::of(c_, b);
+    float* inverse = inverse_diagonal_.block(b);
+    for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
+      constexpr int n = BlockShape<Dim>::n;
+      float diagonal[n];
+      const float* c0 = k.c[0] + offset<Dim>(row, face_strides<Dim>(0));
+      for (int i = 0; i < n; ++i) diagonal[i] = c0[i] + c0[i + 1];
+      for (int a = 1; a < Dim; ++a) {
+        const IVec<Dim> fs = face_strides<Dim>(a);
+        const float* lo = k.c[static_cast<std::size_t>(a)] + offset<Dim>(row, fs);
+        for (int i = 0; i < n; ++i) diagonal[i] += lo[i] + lo[i + fs[a]];
+      }
+      float* out = inverse + offset<Dim>(row, cell_strides<Dim>());
+      for (int i = 0; i < n; ++i) out[i] = diagonal[i] > 0 ? 1.0f / diagonal[i] : 0.0f;
+    });
+  });
+}
+
+template <int Dim>
+void PoissonOperator<Dim>::conservative_ghosts(const mesh::CoarseFace& face, const CellField<double, Dim>& p,
+                                               Scratch<double, Dim>& z) const {
+  constexpr int n = BlockShape<Dim>::n, half = n / 2;
+  const int axis = face.axis;
+  const mesh::Block<Dim>& parent = forest_.block(face.parent);
+  const IVec<Dim> cs = cell_strides<Dim>(), fs = face_strides<Dim>(axis);
+  const int step = ScratchShape<Dim>::stride(axis) * (face.side == 0 ? -1 : 1);
+  IVec<Dim> lower, upper;
+  side_box<Dim>(axis, face.side, lower, upper);
+  for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
+    // Fine cells behind coarse cell i: in the children on the parent's facing side.
+    double weighted = 0, weight = 0;
+    for (int s = 0; s < BlockShape<Dim>::children; ++s) {
+      if ((s >> axis) & 1) continue;
+      IVec<Dim> at{};
+      int child = 0;
+      for (int a = 0; a < Dim; ++a) {
+        if (a == axis) {
+          at[a] = face.side == 0 ? n - 1 : 0;
+          child |= (face.side == 0 ? 1 : 0) << a;
+        } else {
+          const int fine = 2 * i[a] + ((s >> a) & 1);
+          child |= (i[a] >= half ? 1 : 0) << a;
+          at[a] = fine % n;
+        }
+      }
+      const int b = parent.child[static_cast<std::size_t>(child)];
+      IVec<Dim> f = at;
+      if (face.side == 0) ++f[axis];
+      const double c = c_.block(axis, b)[offset<Dim>(f, fs)];
+      weighted += c * p.block(b)[offset<Dim>(at, cs)];
+      weight += c;
+    }
+    // The row's own coefficient (3/4 of the sum, rounded to float) times this difference is the sum of the
+    // fine fluxes, exactly as the fine rows have it.
+    IVec<Dim> f = i;
+    if (face.side == 1) ++f[axis];
+    const double c = c_.block(axis, face.leaf)[offset<Dim>(f, fs)];
+    const double own = z(i);
+    (&z(i))[step] = c > 0 ? own + (weighted - weight * own) / c : own;
+  });
+}
+
+template <int Dim>
+double PoissonOperator<Dim>::apply(const CellField<double, Dim>& p, CellField<double, Dim>& out) const {
+  constexpr int n = BlockShape<Dim>::n;
+  const auto& coarse_faces = forest_.coarse_faces();
+  double dot = forest_.sum_over_leaves([&](int b) {
+    Scratch<double, Dim> z;
+    load_cells<double, Dim>(p.block(b), z);
+    load_ghosts<double, Dim>(forest_, b, CoarseGhost::value, [&](int nb) { return p.block(nb); }, z);
+    for (int f = first_coarse_face_[static_cast<std::size_t>(b)];
+         f >= 0 && f < static_cast<int>(coarse_faces.size()) && coarse_faces[static_cast<std::size_t>(f)].leaf == b; ++f)
+      conservative_ghosts(coarse_faces[static_cast<std::size_t>(f)], p, z);
+    const auto k = Coefficients<Dim>::of(c_, b);
+    double* q = out.block(b);
+    double lanes[n] = {};
+    for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
+      double sum[n], diagonal[n];
+      const double* zr = &z(row);
+      neighbour_sums<double, Dim>(k, row, zr, sum, diagonal);
+      double* qr = q + offset<Dim>(row, cell_strides<Dim>());
+      for (int i = 0; i < n; ++i) {
+        qr[i] = diagonal[i] * zr[i] - sum[i];
+        lanes[i] += qr[i] * zr[i];
+      }
+    });
+    double total = 0;
+    for (const double x : lanes) total += x;
+    return total;
+  });
+  if (!rigid_.cell.empty()) {
+    const auto force = rigid_.gather(p.data());
+    const Eigen::Matrix<double, n_dof<Dim>, 1> twist = rigid_.inverse_mass * force;
+    for (std::size_t i = 0; i < rigid_.cell.size(); ++i)
+      out.data()[static_cast<std::size_t>(rigid_.cell[i])] += rigid_.j[i].dot(twist);
+    dot += force.dot(twist);
+  }
+  return dot;
+}
+
+template class PoissonOperator<2>;
+template class PoissonOperator<3>;
+
+}  // namespace seaway::linear
