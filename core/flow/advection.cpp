@@ -1,0 +1,272 @@
+#include "core/flow/advection.hpp"
+
+#include <cmath>
+
+#include "core/field/restrict.hpp"
+
+namespace seaway::flow {
+
+using field::cell_strides;
+using field::cells_upper;
+using field::face_strides;
+using field::faces_upper;
+using field::filled;
+using field::for_box;
+using field::for_rows;
+using field::offset;
+using field::Scratch;
+using field::ScratchShape;
+
+template <int Dim>
+Advection<Dim>::Advection(const Forest<Dim>& forest, const FluidProperties& fluids,
+                          const Boundaries<Dim>& boundaries)
+    : forest_(forest), fluids_(fluids), boundaries_(boundaries), planes_(forest), swept_(forest),
+      vof_new_(forest), vof_start_(forest), u_start_(forest), u_new_(forest) {}
+
+template <int Dim>
+double Advection<Dim>::courant_number(const FaceField<double, Dim>& w, double dt) const {
+  return forest_.max_over_leaves(0.0, [&](int b) {
+    const auto& block = forest_.block(b);
+    double largest = 0, bad = 0;
+    for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
+      constexpr int n = BlockShape<Dim>::n;
+      double sum[n] = {};
+      for (int a = 0; a < Dim; ++a) {
+        const IVec<Dim> s = face_strides<Dim>(a);
+        const double* lo = w.block(a, b) + offset<Dim>(row, s);
+        const double factor = dt / block.h[a];
+        for (int i = 0; i < n; ++i)
+          sum[i] += factor * std::max(std::abs(lo[i]), std::abs(lo[i + s[a]]));
+      }
+      for (int i = 0; i < n; ++i) {
+        largest = std::max(largest, sum[i]);
+        bad += sum[i];
+      }
+    });
+    return std::isfinite(bad) ? largest : std::nan("");
+  });
+}
+
+template <int Dim>
+void Advection<Dim>::water_fluxes(const FlowState<Dim>& state, int axis, double dt) {
+  constexpr int n = BlockShape<Dim>::n;
+  const IVec<Dim> fs = face_strides<Dim>(axis), cs = cell_strides<Dim>();
+  forest_.for_each_leaf([&](int b) {
+    const auto& block = forest_.block(b);
+    const double* w = state.w.block(axis, b);
+    double* g = swept_.block(axis, b);
+    const BlockPhase around = planes_.surroundings(b);
+    if (around != BlockPhase::mixed) {
+      const double factor = around == BlockPhase::water ? dt : 0.0;
+      for (int i = 0; i < BlockShape<Dim>::faces; ++i) g[i] = factor * w[i];
+      return;
+    }
+    const double h = block.h[axis];
+    for_box<Dim>(filled<Dim>(0), faces_upper<Dim>(axis), [&](const IVec<Dim>& i) {
+      const int o = offset<Dim>(i, fs);
+      const double c = w[o] * dt / h;
+      IVec<Dim> donor = i;
+      if (c > 0) --donor[axis];
+      if (donor[axis] >= 0 && donor[axis] < n) {
+        const int cell = offset<Dim>(donor, cs);
+        const double vof = state.vof.block(b)[cell];
+        g[o] = h * (is_mixed(vof) ? swept_water<Dim>(planes_.plane(b, cell), vof, axis, c) : vof * c);
+        return;
+      }
+      const int side = donor[axis] < 0 ? 0 : 1;
+      const int nb = block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
+      if (nb == mesh::no_block) {  // inflow through the tank's side: as the cell inside
+        IVec<Dim> inside = donor;
+        inside[axis] += side == 0 ? 1 : -1;
+        g[o] = h * c * state.vof.block(b)[offset<Dim>(inside, cs)];
+      } else if (nb >= 0) {
+        donor[axis] += side == 0 ? n : -n;
+        const int cell = offset<Dim>(donor, cs);
+        const double vof = state.vof.block(nb)[cell];
+        const bool mixed = is_mixed(vof) && forest_.block(nb).leaf;  // behind a parent the fine fluxes count
+        g[o] = h * (mixed ? swept_water<Dim>(planes_.plane(nb, cell), vof, axis, c) : vof * c);
+      } else {  // coarser: the child cell that is not there, cut by the coarse plane
+        const auto& parent = forest_.block(block.parent);
+        const int coarse = parent.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
+        IVec<Dim> at{};
+        int child = 0;
+        for (int a = 0; a < Dim; ++a) {
+          if (a == axis) {
+            at[a] = side == 0 ? n - 1 : 0;
+            child |= (side == 0 ? 1 : 0) << a;
+          } else {
+            at[a] = (block.coord[a] & 1) * n / 2 + i[a] / 2;
+            child |= (i[a] & 1) << a;
+          }
+        }
+        const int cell = offset<Dim>(at, cs);
+        double vof = state.vof.block(coarse)[cell];
+        if (is_mixed(vof)) {
+          const Plane<Dim> plane = child_plane<Dim>(planes_.plane(coarse, cell), child);
+          vof = plane_fraction<Dim>(plane.normal, plane.d);
+          g[o] = h * swept_water<Dim>(plane, vof, axis, c);
+        } else {
+          g[o] = h * vof * c;
+        }
+      }
+    });
+  });
+  field::restrict_faces<double, Dim>(forest_, swept_, axis);
+}
+
+template <int Dim>
+void Advection<Dim>::update_vof(const FlowState<Dim>& state, int axis, double dt) {
+  constexpr int n = BlockShape<Dim>::n;
+  const IVec<Dim> fs = face_strides<Dim>(axis), cs = cell_strides<Dim>();
+  forest_.for_each_leaf([&](int b) {
+    const double* old = state.vof.block(b);
+    double* out = vof_new_.block(b);
+    if (planes_.surroundings(b) != BlockPhase::mixed) {
+      std::copy(old, old + BlockShape<Dim>::cells, out);
+      return;
+    }
+    const double inverse_h = 1.0 / forest_.block(b).h[axis];
+    const double* w = state.w.block(axis, b);
+    const double* g = swept_.block(axis, b);
+    const double* start = vof_start_.block(b);
+    for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
+      const int f = offset<Dim>(row, fs), c = offset<Dim>(row, cs);
+      for (int i = 0; i < n; ++i) {
+        const double dilation = start[c + i] > 0.5 ? dt * (w[f + i + fs[axis]] - w[f + i]) : 0.0;
+        double v = old[c + i] + inverse_h * (g[f + i] - g[f + i + fs[axis]] + dilation);
+        if (v < 1e-13 && v > -1e-13) v = 0;
+        if (v > 1 - 1e-13 && v < 1 + 1e-13) v = 1;
+        out[c + i] = v;
+      }
+    });
+  });
+  field::restrict_cells<double, Dim>(forest_, vof_new_);
+}
+
+namespace {
+
+/// Upwind value at the lower boundary of a staggered control volume: u0 | u1 are beside it, um and u2 beyond.
+inline double upwind(double um, double u0, double u1, double u2, double flux, double courant) {
+  const double middle = u1 - u0;
+  const double donor_side = flux > 0 ? u0 - um : u2 - u1;
+  const double product = middle * donor_side;
+  const double slope = product > 0 ? 2 * product / (middle + donor_side) : 0.0;
+  return flux > 0 ? u0 + 0.5 * (1 - courant) * slope : u1 - 0.5 * (1 - courant) * slope;
+}
+
+}  // namespace
+
+template <int Dim>
+void Advection<Dim>::update_momentum(const FlowState<Dim>& state, int axis, double dt) {
+  using Shape = ScratchShape<Dim>;
+  const int S = Shape::stride(axis);
+  const double jump = fluids_.rho_water - fluids_.rho_air;
+  forest_.for_each_leaf([&](int b) {
+    const auto& block = forest_.block(b);
+    const double inverse_h = 1.0 / block.h[axis];
+    const double cw = dt * inverse_h;
+    const bool pure = planes_.surroundings(b) != BlockPhase::mixed;
+    Scratch<double, Dim> w, old_rho, new_rho, mass_flux;
+    Scratch<double, Dim> flux, momentum, velocity;
+    field::gather_faces<double, Dim>(forest_, state.w, axis, b, 1, boundaries_, w);
+    if (!pure) {
+      field::gather_cells<double, Dim>(forest_, state.vof, b, 2, old_rho);
+      field::gather_cells<double, Dim>(forest_, vof_new_, b, 1, new_rho);
+      field::gather_faces<double, Dim>(forest_, swept_, axis, b, 1, boundaries_, mass_flux);
+      for (int i = 0; i < Shape::size; ++i) {  // the parts that are never filled are never used
+        mass_flux.data[i] = fluids_.rho_air * cw * w.data[i] + jump * inverse_h * mass_flux.data[i];
+        old_rho.data[i] = fluids_.rho_air + jump * old_rho.data[i];
+        new_rho.data[i] = fluids_.rho_air + jump * new_rho.data[i];
+      }
+    }
+    for (int a = 0; a < Dim; ++a) {
+      const int A = Shape::stride(a);
+      field::gather_faces<double, Dim>(forest_, state.u, a, b, 2, boundaries_, velocity);
+      const IVec<Dim> upper = faces_upper<Dim>(a);
+      IVec<Dim> boundary_upper = upper;  // lower boundaries of the control volumes along the sweep
+      ++boundary_upper[axis];
+      const IVec<Dim> fs = face_strides<Dim>(a);
+      const double* start = u_start_.block(a, b);
+      double* out = u_new_.block(a, b);
+      // The flux through the lower boundary of volume i: along the axis at the centre of cell i - 1, across
+      // it the mean of the two cells that share the face.
+      const int shift = a == axis ? -S : -A;
+      const int rows = boundary_upper[0];
+      for_rows<Dim>(filled<Dim>(0), boundary_upper, [&](const IVec<Dim>& row) {
+        const int at = Shape::at(row);
+        const double* u = velocity.data + at;
+        double* f = flux.data + at;
+        double* m = momentum.data + at;
+        if (pure) {
+          const double* ww = w.data + at;
+          for (int i = 0; i < rows; ++i) {
+            f[i] = 0.5 * cw * (ww[i + shift] + ww[i]);
+            m[i] = f[i] * upwind(u[i - 2 * S], u[i - S], u[i], u[i + S], f[i], std::abs(f[i]));
+          }
+        } else {
+          const double* mf = mass_flux.data + at;
+          const double* rho = old_rho.data + at;
+          for (int i = 0; i < rows; ++i) {
+            f[i] = 0.5 * (mf[i + shift] + mf[i]);
+            const double donor = f[i] > 0 ? rho[i - S - A] + rho[i - S] : rho[i - A] + rho[i];
+            const double courant = std::min(1.0, 2 * std::abs(f[i]) / donor);
+            m[i] = f[i] * upwind(u[i - 2 * S], u[i - S], u[i], u[i + S], f[i], courant);
+          }
+        }
+      });
+      const int count = upper[0];
+      for_rows<Dim>(filled<Dim>(0), upper, [&](const IVec<Dim>& row) {
+        const int at = Shape::at(row);
+        const int o = offset<Dim>(row, fs);
+        const double* u = velocity.data + at;
+        const double* f = flux.data + at;
+        const double* m = momentum.data + at;
+        if (pure) {
+          for (int i = 0; i < count; ++i)
+            out[o + i] = u[i] - (m[i + S] - m[i]) + (f[i + S] - f[i]) * start[o + i];
+        } else {
+          const double* ro = old_rho.data + at;
+          const double* rn = new_rho.data + at;
+          for (int i = 0; i < count; ++i) {
+            const double before = 0.5 * (ro[i - A] + ro[i]), after = 0.5 * (rn[i - A] + rn[i]);
+            const double df = f[i + S] - f[i];
+            out[o + i] = (before * u[i] - (m[i + S] - m[i]) + (after - before + df) * start[o + i]) / after;
+          }
+        }
+      });
+      // Faces on the tank's fixed sides keep their value.
+      for (int side = 0; side < 2; ++side) {
+        if (block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))] != mesh::no_block ||
+            boundaries_.kind[static_cast<std::size_t>(a)][static_cast<std::size_t>(side)] != BoundaryKind::fixed)
+          continue;
+        IVec<Dim> lower = filled<Dim>(0), top = cells_upper<Dim>();
+        lower[a] = side == 0 ? 0 : BlockShape<Dim>::n;
+        top[a] = lower[a] + 1;
+        const double* u = state.u.block(a, b);
+        for_box<Dim>(lower, top, [&](const IVec<Dim>& i) { out[offset<Dim>(i, fs)] = u[offset<Dim>(i, fs)]; });
+      }
+    }
+  });
+  field::restrict_faces<double, Dim>(forest_, u_new_);
+}
+
+template <int Dim>
+void Advection<Dim>::advance(FlowState<Dim>& state, double dt, std::int64_t step) {
+  vof_start_ = state.vof;
+  u_start_ = state.u;
+  for (int sweep = 0; sweep < Dim; ++sweep) {
+    const int axis = static_cast<int>((sweep + step) % Dim);
+    planes_.reconstruct(state.vof);
+    water_fluxes(state, axis, dt);
+    if (visitor_) visitor_(axis, swept_);
+    update_vof(state, axis, dt);
+    update_momentum(state, axis, dt);
+    std::swap(state.vof, vof_new_);
+    std::swap(state.u, u_new_);
+  }
+}
+
+template class Advection<2>;
+template class Advection<3>;
+
+}  // namespace seaway::flow
