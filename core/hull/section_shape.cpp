@@ -24,18 +24,24 @@ void check_length(const char* what, double value) {
 }
 
 Polygon rounded_box(double beam, double height, double radius) {
-  SEAWAY_CHECK(std::isfinite(radius) && radius > 0 && radius <= 0.5 * std::min(beam, height),
-               "corner radius is {} m; allowed: above 0 and at most half the smaller side, {} m",
-               radius, 0.5 * std::min(beam, height));
-  const double y = 0.5 * beam - radius;
-  const Vec2 centres[4] = {{y, radius}, {y, height - radius}, {-y, height - radius}, {-y, radius}};
+  SEAWAY_CHECK(
+      radius >= 0 && radius <= std::min(0.5 * beam, height),
+      "corner radius is {} m; allowed: 0 to the smaller of half the beam and the height, {} m",
+      radius, std::min(0.5 * beam, height));
+  const double y = 0.5 * beam;
+  Polygon port;  // from the keel upwards
+  for (int i = 0; i <= chords_per_corner; ++i) {
+    const double angle = 0.5 * pi * (static_cast<double>(i) / chords_per_corner - 1.0);
+    port.emplace_back(y - radius + radius * std::cos(angle), radius + radius * std::sin(angle));
+  }
+  port.emplace_back(y, height);
   Polygon p;
-  for (int corner = 0; corner < 4; ++corner)
-    for (int i = 0; i <= chords_per_corner; ++i) {
-      const double angle = 0.5 * pi * (corner - 1 + static_cast<double>(i) / chords_per_corner);
-      const Vec2 x = centres[corner] + radius * Vec2(std::cos(angle), std::sin(angle));
-      if (p.empty() || (x - p.back()).norm() > raster) p.push_back(x);
-    }
+  for (const Vec2& x : port)
+    if (p.empty() || (x - p.back()).norm() > raster) p.push_back(x);
+  for (auto x = port.rbegin(); x != port.rend(); ++x) {
+    const Vec2 mirrored(-x->x(), x->y());
+    if ((mirrored - p.back()).norm() > raster) p.push_back(mirrored);
+  }
   if ((p.front() - p.back()).norm() <= raster) p.pop_back();
   return p;
 }
@@ -103,10 +109,9 @@ Polygon offsets_polygon(const SectionSpec& spec) {
   return closed_polygon(p);
 }
 
-bool is_valid(const Box<2>& box) {
-  return box.lower.minCoeff() > -largest && box.upper.maxCoeff() < largest &&
-         box.lower.allFinite() && box.upper.allFinite() &&
-         (box.upper - box.lower).minCoeff() > raster;
+bool is_valid(const Box<2>& box, int axis) {
+  return box.lower[axis] > -largest && box.upper[axis] < largest &&
+         box.upper[axis] - box.lower[axis] > raster;
 }
 
 std::string text(const Box<2>& box) {
@@ -142,16 +147,22 @@ class ProblemFinder {
     problems_.push_back({std::move(where), std::move(message), std::move(hint)});
   }
 
+  void check_box(const std::string& where, const char* what, const std::string& name,
+                 const Box<2>& box) {
+    for (int axis = 0; axis < 2; ++axis)
+      if (!is_valid(box, axis))
+        add(where + (axis == 0 ? ".y" : ".z"),
+            fmt::format("{} '{}' reaches from {} to {} m", what, name, box.lower[axis],
+                        box.upper[axis]),
+            "give two finite numbers, the lower one first");
+  }
+
   void check_compartment(std::size_t i) {
     const CompartmentSpec& c = spec_.compartments[i];
     const std::string where = fmt::format("compartments[{}]", i);
     spaces_.emplace_back();
     const std::size_t before = problems_.size();
-    if (!is_valid(c.box))
-      add(where + ".upper",
-          fmt::format("box {} of compartment '{}' has no area or no finite size", text(c.box),
-                      c.name),
-          "every coordinate of the upper corner must be above that of the lower one");
+    check_box(where, "compartment", c.name, c.box);
     if (!(c.wall_thickness >= 0 && c.wall_thickness < largest))
       add(where + ".wall_thickness", fmt::format("{} m; it must be 0 or more", c.wall_thickness),
           "give the thickness of the shell in metres");
@@ -160,11 +171,8 @@ class ProblemFinder {
           fmt::format("{}; allowed: above 0 and at most 1", c.permeability),
           "leave the compartment out if no water can enter it");
     for (std::size_t k = 0; k < c.openings.size(); ++k)
-      if (!is_valid(c.openings[k].box))
-        add(fmt::format("{}.openings[{}].upper", where, k),
-            fmt::format("box {} of opening '{}' has no area or no finite size",
-                        text(c.openings[k].box), c.openings[k].name),
-            "every coordinate of the upper corner must be above that of the lower one");
+      check_box(fmt::format("{}.openings[{}]", where, k), "opening", c.openings[k].name,
+                c.openings[k].box);
     if (problems_.size() > before) return;
     spaces_.back() = space_of(c, outer_);
     if (area_of(spaces_.back()) <= raster)

@@ -31,7 +31,7 @@ struct SectionSpec {
   enum class Shape { box, rounded_box, polygon, offsets };
   Shape shape = Shape::box;
   double beam = 0, height = 0;    ///< box, rounded_box: |y| <= beam / 2, 0 <= z <= height
-  double corner_radius = 0;       ///< rounded_box; each quarter circle becomes 16 chords
+  double corner_radius = 0;       ///< rounded_box: of the two lower corners; each becomes 16 chords
   Polygon vertices;               ///< polygon: the last corner repeats the first; either sense
   std::string offsets_file;       ///< offsets: table as in offsets_table.hpp
   double station = 0, scale = 1;  ///< offsets: x in the table's unit; lengths are divided by scale
@@ -55,7 +55,8 @@ struct Section {
 
 /// One thing that is wrong with a description.
 struct SectionProblem {
-  std::string where;    ///< member of SectionSpec: "vertices", "compartments[1].openings[0]"
+  std::string
+      where;  ///< member of SectionSpec: "compartments[1].openings[0].y" (y, z: extents of the box)
   std::string message;  ///< the value, and what is allowed
   std::string hint;     ///< what to do
 };
