@@ -1,0 +1,38 @@
+// A hull section as the flow solver sees it: distances from a table, exact areas from its polygons.
+// Const after construction, thread-safe. Patches may outlive the hull.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/hull/distance_table.hpp"
+#include "core/hull/section_shape.hpp"
+
+namespace seaway::hull {
+
+class SectionHull final : public Hull<2> {
+ public:
+  /// spacing  of the distance table [m]: half the finest cell
+  /// margin   reach of the table beyond the hull [m]
+  /// Throws as DistanceTable. A table of 0.9 x 0.8 m at 2.5 mm takes about 0.05 s and 1 MB.
+  SectionHull(Section section, double spacing, double margin = 0.25);
+
+  double signed_distance(const Vec2& x) const override { return table_->value(x); }
+  Vec2 distance_gradient(const Vec2& x) const override { return table_->gradient(x); }
+  /// Queries of a patch must lie inside its box; what reaches out of it is seen as fluid.
+  std::unique_ptr<HullPatch<2>> patch(const Box<2>& box) const override;
+  Box<2> bounds() const override { return bounds_; }
+  /// A point in an opening belongs to no compartment (-1), nor does one inside a wall.
+  int compartment_at(const Vec2& x) const override;
+  int n_compartments() const override { return static_cast<int>(section_.compartments.size()); }
+
+  const Section& section() const { return section_; }
+
+ private:
+  Section section_;
+  Box<2> bounds_;
+  std::vector<Box<2>> compartment_bounds_;
+  std::shared_ptr<const DistanceTable> table_;
+};
+
+}  // namespace seaway::hull
