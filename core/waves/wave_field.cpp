@@ -1,6 +1,7 @@
 #include "core/waves/wave_field.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/waves/airy.hpp"
