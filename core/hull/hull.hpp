@@ -65,6 +65,8 @@ class Hull {
   /// Compartment index at a point, or -1 (sea, or solid).
   virtual int compartment_at(const Vec<Dim>& x) const = 0;
   virtual int n_compartments() const = 0;
+  /// Whether any compartment has a permeability below 1.
+  virtual bool has_porous_space() const { return false; }
 };
 
 }  // namespace seaway::hull

@@ -26,6 +26,11 @@ class SectionHull final : public Hull<2> {
   int compartment_at(const Vec2& x) const override;
   int n_compartments() const override { return static_cast<int>(section_.compartments.size()); }
 
+  bool has_porous_space() const override {
+    for (const auto& c : section_.compartments)
+      if (c.permeability < 1) return true;
+    return false;
+  }
   const Section& section() const { return section_; }
 
  private:

@@ -52,6 +52,8 @@ struct Wave {
 struct Zones {
   double generation_length = 0;  ///< [m] at the end the wave comes from; 0: none
   double absorption_length = 0;  ///< [m] at the other end
+  enum class Target { wave, rest };
+  Target absorption_target = Target::wave;  ///< what the absorbing end relaxes to; calm water: always rest
   double rate = 0;               ///< largest relaxation rate [1/s]; 0: chosen from the wave
 };
 

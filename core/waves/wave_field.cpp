@@ -1,6 +1,7 @@
 #include "core/waves/wave_field.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/waves/airy.hpp"
@@ -43,7 +44,7 @@ void RegularWave::column_velocity(double x, double y, double t, std::span<const 
 }
 
 double highest_wave(double length, double depth) {
-  const double r = length / depth;  // [fenton1990], eq. 32
+  const double r = length / depth;  // [fenton1990]
   return depth * (0.141063 * r + 0.0095721 * r * r + 0.0077829 * r * r * r) /
          (1 + 0.0788340 * r + 0.0317567 * r * r + 0.0093407 * r * r * r);
 }

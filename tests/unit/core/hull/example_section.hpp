@@ -24,12 +24,12 @@ inline SectionSpec damaged_midship() {
   spec.station = 71.0;
   spec.scale = 51.0;
   spec.extend_to = 0.30;
-  const double bulkhead = 0.112, outside = 0.25;
+  const double bulkhead = 0.1145, outside = 0.25;
   CompartmentSpec port;
   port.name = "port wing";
   port.box = {{bulkhead, 0.020}, {outside, 0.280}};
   port.wall_thickness = 0.020;
-  port.openings = {{"damage", {{0.140, 0.060}, {outside, 0.100}}},
+  port.openings = {{"damage", {{0.140, 0.070}, {outside, 0.100}}},
                    {"vent", {{0.130, 0.270}, {0.160, 0.310}}}};
   CompartmentSpec starboard = port;
   starboard.name = "starboard wing";

@@ -96,6 +96,17 @@ TEST(Equilibrium, HeavyBodySinks) {
   EXPECT_FALSE(find_equilibrium(box(0.3, 0.1), 0.031, {0, 0.05}, true).floats);
 }
 
+TEST(Equilibrium, ExampleSectionFloatsAtItsDesignDraft) {
+  const Section section = build_section(damaged_midship());
+  const double area = hydrostatics(buoyant_loops(section, {false, false}), {6.15 / 51, 0}).area;
+  EXPECT_NEAR(area, 0.036701, 1e-6);
+  const Equilibrium e = find_equilibrium(section.solid, area, {0, 0.100}, true);
+  ASSERT_TRUE(e.floats && e.stable);
+  EXPECT_NEAR(e.at.waterline, 0.147, 0.001);  // asked for: about 0.147 and 0.039
+  EXPECT_NEAR(e.gm, 0.039, 0.0015);
+  EXPECT_EQ(e.at.heel, 0.0);
+}
+
 TEST(Equilibrium, OneFloodedSideHeelsTowardsIt) {
   const Section section = build_section(damaged_midship());
   const auto solid = buoyant_loops(section, {true, false});

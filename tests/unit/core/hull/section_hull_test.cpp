@@ -65,7 +65,7 @@ TEST(SectionHull, LabelsCompartments) {
   EXPECT_EQ(hull.compartment_at({0.14, 0.15}), 0);
   EXPECT_EQ(hull.compartment_at({-0.14, 0.15}), 1);
   EXPECT_EQ(hull.compartment_at({0.0, 0.15}), -1);    // solid middle
-  EXPECT_EQ(hull.compartment_at({0.185, 0.08}), -1);  // inside the opening
+  EXPECT_EQ(hull.compartment_at({0.175, 0.08}), -1);  // inside the opening
   EXPECT_EQ(hull.compartment_at({0.5, 0.1}), -1);     // sea
 }
 

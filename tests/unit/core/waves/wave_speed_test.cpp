@@ -1,8 +1,10 @@
 // How long the waves take in the relaxation zones' use: columns of 8 heights, as a block has them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "core/waves/water_fraction.hpp"

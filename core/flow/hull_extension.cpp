@@ -1,0 +1,204 @@
+#include "core/flow/hull_extension.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/flow/plic.hpp"
+
+namespace seaway::flow {
+
+using field::filled;
+using field::for_box;
+
+namespace {
+
+/// Offsets of the 3^Dim neighbourhood without the middle, with their distance in cells.
+template <int Dim>
+struct Neighbour {
+  IVec<Dim> at{};
+  int index = 0;
+  int distance = 0;  ///< number of axes in which it differs
+};
+
+template <int Dim>
+std::vector<Neighbour<Dim>> neighbours(const HullWindow<Dim>& window) {
+  std::vector<Neighbour<Dim>> out;
+  for_box<Dim>(filled<Dim>(-1), filled<Dim>(2), [&](const IVec<Dim>& i) {
+    Neighbour<Dim> n;
+    n.at = i;
+    for (int a = 0; a < Dim; ++a) {
+      n.index += i[a] * window.stride(a);
+      n.distance += i[a] != 0;
+    }
+    if (n.distance > 0) out.push_back(n);
+  });
+  return out;
+}
+
+/// Gradient of the distance at a cell by central differences.
+template <int Dim>
+Vec<Dim> distance_gradient(const HullWindow<Dim>& window, const std::vector<double>& phi, int at) {
+  Vec<Dim> g;
+  for (int a = 0; a < Dim; ++a) {
+    const int s = window.stride(a);
+    g[a] = (phi[static_cast<std::size_t>(at + s)] - phi[static_cast<std::size_t>(at - s)]) / (2 * window.h()[a]);
+  }
+  return g;
+}
+
+/// Whether a neighbour lies on the fluid side.
+template <int Dim>
+bool visible(const HullWindow<Dim>& window, const Neighbour<Dim>& n, const Vec<Dim>& gradient) {
+  double along = 0;
+  for (int a = 0; a < Dim; ++a) along += n.at[a] * window.h()[a] * gradient[a];
+  return along > 0.3 * window.h().minCoeff();
+}
+
+}  // namespace
+
+template <int Dim>
+void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<double>& vof) {
+  const HullWindow<Dim>& window = mask.window();
+  const auto& theta = mask.fluid_fraction();
+  const auto& phi = mask.now().phi;
+  const auto around = neighbours<Dim>(window);
+  // 0: known; 1, 2, ...: layers; -1: not reached.
+  layer_.assign(window.size(), -1);
+  IVec<Dim> inner_upper = window.n();
+  for (int& u : inner_upper) u -= 1;
+  window.for_cells([&](const IVec<Dim>& i) {
+    const auto at = static_cast<std::size_t>(window.at(i));
+    if (theta[at] >= 0.5) layer_[at] = 0;
+  });
+  const auto plane_of = [&](int at) {
+    double stencil[Dim == 2 ? 9 : 27];
+    int e = 0;
+    for_box<Dim>(filled<Dim>(-1), filled<Dim>(2), [&](const IVec<Dim>& o) {
+      int index = at;
+      for (int a = 0; a < Dim; ++a) index += o[a] * window.stride(a);
+      stencil[e++] = vof[static_cast<std::size_t>(index)];
+    });
+    Plane<Dim> plane;
+    plane.normal = interface_normal<Dim>(stencil);
+    plane.d = plane_constant<Dim>(plane.normal, vof[static_cast<std::size_t>(at)]);
+    return plane;
+  };
+  for (int layer = 1; layer <= extension_layers; ++layer) {
+    list_.clear();
+    next_.clear();
+    for_box<Dim>(filled<Dim>(1), inner_upper, [&](const IVec<Dim>& i) {
+      const int at = window.at(i);
+      if (layer_[static_cast<std::size_t>(at)] != -1 || phi[static_cast<std::size_t>(at)] < -(layer + 2) * window.h().maxCoeff())
+        return;
+      const Vec<Dim> gradient = distance_gradient<Dim>(window, phi, at);
+      double planes = 0, plane_weight = 0, means = 0, mean_weight = 0;
+      for (const bool only_visible : {true, false}) {
+        for (const auto& n : around) {
+          if (layer > 1 && n.distance > 1) continue;
+          const int from = at + n.index;
+          const int l = layer_[static_cast<std::size_t>(from)];
+          if (l < 0 || l >= layer || (only_visible && !visible<Dim>(window, n, gradient))) continue;
+          const double c = vof[static_cast<std::size_t>(from)];
+          means += c;
+          mean_weight += 1;
+          bool inside = true;  // the plane needs the neighbour's own 3^Dim stencil
+          for (int a = 0; a < Dim; ++a)
+            inside = inside && i[a] + n.at[a] >= 1 && i[a] + n.at[a] < window.n()[a] - 1;
+          if (layer == 1 && is_mixed(c) && inside) {
+            Plane<Dim> plane = plane_of(from);
+            for (int a = 0; a < Dim; ++a) plane.d += n.at[a] * plane.normal[static_cast<std::size_t>(a)];
+            const double weight = n.distance == 1 ? 1.0 : 0.5;
+            planes += weight * plane_fraction<Dim>(plane.normal, plane.d);
+            plane_weight += weight;
+          }
+        }
+        if (mean_weight > 0) break;
+      }
+      if (mean_weight == 0) return;
+      list_.push_back(at);
+      next_.push_back(plane_weight > 0 ? planes / plane_weight : means / mean_weight);
+    });
+    for (std::size_t k = 0; k < list_.size(); ++k) {
+      vof[static_cast<std::size_t>(list_[k])] = next_[k];
+      layer_[static_cast<std::size_t>(list_[k])] = static_cast<signed char>(layer);
+    }
+  }
+}
+
+template <int Dim>
+void HullExtension<Dim>::extend_velocity(const HullMask<Dim>& mask, int axis, const motion::Twist<Dim>& twist,
+                                         std::vector<double>& u) {
+  const HullWindow<Dim>& window = mask.window();
+  const auto& aperture = mask.half().aperture[static_cast<std::size_t>(axis)];
+  const auto& phi = mask.half().phi;
+  const auto around = neighbours<Dim>(window);
+  IVec<Dim> inner_upper = window.n();
+  for (int& v : inner_upper) v -= 1;
+  layer_.assign(window.size(), -1);
+  list_.clear();
+  next_.clear();
+  IVec<Dim> faces_upper = window.n();
+  ++faces_upper[axis];
+  for_box<Dim>(filled<Dim>(0), faces_upper, [&](const IVec<Dim>& i) {
+    const int at = window.at(i);
+    if (aperture[static_cast<std::size_t>(at)] > 0) layer_[static_cast<std::size_t>(at)] = 0;
+  });
+  // Nearly closed faces: limited to the spread of the open ones around them.
+  for_box<Dim>(filled<Dim>(1), inner_upper, [&](const IVec<Dim>& i) {
+    const int at = window.at(i);
+    const double a = aperture[static_cast<std::size_t>(at)];
+    if (!(a > 0 && a < 0.2)) return;
+    double sum = 0, largest = 0;
+    int count = 0;
+    for (const auto& n : around) {
+      const auto from = static_cast<std::size_t>(at + n.index);
+      if (aperture[from] < 0.2) continue;
+      sum += u[from];
+      largest = std::max(largest, std::abs(u[from]));
+      ++count;
+    }
+    if (count == 0) return;
+    const double mean = sum / count;
+    list_.push_back(at);
+    next_.push_back(mean + std::clamp(u[static_cast<std::size_t>(at)] - mean, -largest, largest));
+  });
+  for (std::size_t k = 0; k < list_.size(); ++k) u[static_cast<std::size_t>(list_[k])] = next_[k];
+  for (int layer = 1; layer <= extension_layers; ++layer) {
+    list_.clear();
+    next_.clear();
+    for_box<Dim>(filled<Dim>(1), inner_upper, [&](const IVec<Dim>& i) {
+      const int at = window.at(i);
+      if (layer_[static_cast<std::size_t>(at)] != -1 || phi[static_cast<std::size_t>(at)] < -(layer + 2) * window.h().maxCoeff())
+        return;
+      const Vec<Dim> gradient = distance_gradient<Dim>(window, phi, at);
+      double sum = 0, weight = 0;
+      for (const bool only_visible : {true, false}) {
+        for (const auto& n : around) {
+          const auto from = static_cast<std::size_t>(at + n.index);
+          if (layer_[from] < 0 || layer_[from] >= layer || (only_visible && !visible<Dim>(window, n, gradient)))
+            continue;
+          sum += u[from];
+          weight += 1;
+        }
+        if (weight > 0) break;
+      }
+      if (weight == 0) return;
+      list_.push_back(at);
+      next_.push_back(sum / weight);
+    });
+    for (std::size_t k = 0; k < list_.size(); ++k) {
+      u[static_cast<std::size_t>(list_[k])] = next_[k];
+      layer_[static_cast<std::size_t>(list_[k])] = static_cast<signed char>(layer);
+    }
+  }
+  for_box<Dim>(filled<Dim>(0), faces_upper, [&](const IVec<Dim>& i) {
+    const auto at = static_cast<std::size_t>(window.at(i));
+    if (layer_[at] != -1) return;
+    u[at] = motion::velocity_at<Dim>(twist, mask.half().pose, window.face_centre(i, axis))[axis];
+  });
+}
+
+template class HullExtension<2>;
+template class HullExtension<3>;
+
+}  // namespace seaway::flow

@@ -1,0 +1,38 @@
+// Values inside the hull that make the flow outside well-balanced: the interface goes straight on through the
+// wall, the velocity slips along it. Works on window arrays (core/flow/hull_window.hpp).
+//
+// A cell with less than half fluid, or a closed face, is "unknown" and gets its value from known neighbours
+// that it can see: those on the fluid side of it, (x_n - x_c) . grad(phi) > 0.3 h. Without that rule a rotated
+// wall of two cells leaks through diagonal neighbours.
+#pragma once
+
+#include "core/flow/flow_state.hpp"
+#include "core/flow/hull_mask.hpp"
+
+namespace seaway::flow {
+
+/// Layers of cells and faces filled inside the hull.
+inline constexpr int extension_layers = 4;
+
+template <int Dim>
+class HullExtension {
+ public:
+  /// Overwrites vof (window array) in cells with fluid_fraction < 1/2: first layer from the interface planes
+  /// of mixed neighbours evaluated there, deeper layers from means.
+  void extend_vof(const HullMask<Dim>& mask, std::vector<double>& vof);
+
+  /// Overwrites u (window array of the axis) in closed faces; deeper than the layers: the wall's velocity.
+  /// Nearly closed faces (aperture < 0.2) keep their value within the spread of their neighbours.
+  void extend_velocity(const HullMask<Dim>& mask, int axis, const motion::Twist<Dim>& twist,
+                       std::vector<double>& u);
+
+ private:
+  std::vector<signed char> layer_;
+  std::vector<double> next_;
+  std::vector<int> front_, list_;
+};
+
+extern template class HullExtension<2>;
+extern template class HullExtension<3>;
+
+}  // namespace seaway::flow

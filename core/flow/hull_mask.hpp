@@ -1,0 +1,89 @@
+// Where the hull is in the mesh: apertures of faces, fluid fractions of cells, and what follows from them for
+// the rigid body in the pressure solve. Apertures are the fluid part of the staggered control volumes
+// [batty2007], not of the faces: that makes the pressure force smooth in the hull's position and Archimedes'
+// law exact (docs/numerics.md, section "Hull").
+#pragma once
+
+#include <memory>
+
+#include "core/flow/hull_window.hpp"
+#include "core/hull/hull.hpp"
+#include "core/linear/poisson_operator.hpp"
+#include "core/motion/rigid_body.hpp"
+
+namespace seaway::flow {
+
+/// Apertures below this are closed: the velocity in them is hardly constrained.
+inline constexpr double smallest_aperture = 0.005;
+
+/// The hull at one pose, sampled on the window.
+template <int Dim>
+struct HullGeometry {
+  motion::Pose<Dim> pose;
+  std::vector<double> phi;                          ///< cells: signed distance, > 0 in fluid [m]
+  std::array<std::vector<double>, Dim> aperture;    ///< faces: 0..1
+  std::array<std::vector<Vec<Dim>>, Dim> arm;       ///< faces: centroid of the open part less the cog [m]
+};
+
+template <int Dim>
+class HullMask {
+ public:
+  /// `clearance`: width of the window around the hull's bounds, in finest cells.
+  HullMask(const Forest<Dim>& forest, std::shared_ptr<const hull::Hull<Dim>> hull,
+           const motion::RigidBody<Dim>& body, int clearance = 6);
+
+  /// Geometry at the pose of the new time and at the pose half a step later. Throws as HullWindow::cover.
+  void update(const motion::Pose<Dim>& now, const motion::Pose<Dim>& half_step);
+
+  const HullWindow<Dim>& window() const { return window_; }
+  const HullGeometry<Dim>& now() const { return now_; }
+  const HullGeometry<Dim>& half() const { return half_; }
+  /// Fluid part of each cell at the new time; permeability counts as solid.
+  const std::vector<double>& fluid_fraction() const { return theta_; }
+  /// Solid part of each face at the half-step pose.
+  const std::vector<double>& solid_face(int axis) const { return solid_face_[static_cast<std::size_t>(axis)]; }
+  /// Whether the blocks of the window changed in the last update.
+  bool moved() const { return moved_; }
+
+  /// Solid below the interface plane of a cell at the new time [m^Dim]: what the cell's water volume has to
+  /// be reduced by to get the water that is really there.
+  double submerged_solid(const IVec<Dim>& cell, const std::array<double, Dim>& normal, double d) const;
+
+  /// Rows J_c of the rigid body for a geometry (sum over the cell's faces, about the cog).
+  linear::RigidRows<Dim> rigid_rows(const HullGeometry<Dim>& geometry) const;
+
+  /// Velocity of fluid and hull through full faces, w = a u + v_s(centre) - a v_s(open centroid), in the
+  /// window; `u` and `w` are window arrays of the axis.
+  void mixture_velocity(int axis, const motion::Twist<Dim>& twist, const std::vector<double>& u,
+                        std::vector<double>& w) const;
+
+  /// Connected space of a point in the earth frame: 0 sea, 1 + compartment.
+  int space_at(const Vec<Dim>& x) const;
+  const motion::RigidBody<Dim>& body() const { return body_; }
+
+ private:
+  void sample_distance(HullGeometry<Dim>& g) const;
+  void find_apertures(HullGeometry<Dim>& g, bool with_solid_faces);
+  void find_fluid_fractions();
+  hull::OrientedBox<Dim> box_at(const HullGeometry<Dim>& g, const Vec<Dim>& centre) const;
+  void make_patches(const HullGeometry<Dim>& g, std::vector<std::unique_ptr<hull::HullPatch<Dim>>>& out) const;
+  std::size_t tile_of(const IVec<Dim>& cell) const;
+  bool porous(const HullGeometry<Dim>& g, const Vec<Dim>& x) const;
+
+  std::shared_ptr<const hull::Hull<Dim>> hull_;
+  motion::RigidBody<Dim> body_;
+  HullWindow<Dim> window_;
+  int clearance_;
+  double clip_distance_ = 0;  ///< |phi| beyond which a control volume is wholly fluid or solid
+  HullGeometry<Dim> now_, half_;
+  std::vector<double> theta_;
+  std::array<std::vector<double>, Dim> solid_face_;
+  std::vector<std::unique_ptr<hull::HullPatch<Dim>>> patches_;  ///< by tile, at the new pose
+  bool moved_ = true;
+  bool has_pose_ = false;
+};
+
+extern template class HullMask<2>;
+extern template class HullMask<3>;
+
+}  // namespace seaway::flow

@@ -1,0 +1,147 @@
+#include "core/flow/hull_window.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+
+namespace seaway::flow {
+
+using field::cell_strides;
+using field::cells_upper;
+using field::face_strides;
+using field::faces_upper;
+using field::filled;
+using field::for_box;
+using field::for_rows;
+using field::offset;
+
+template <int Dim>
+bool HullWindow<Dim>::cover(const Vec<Dim>& lower, const Vec<Dim>& upper) {
+  constexpr int nb = BlockShape<Dim>::n;
+  const int level = forest_.n_levels() - 1;
+  h_ = forest_.cell_size(level);
+  IVec<Dim> first{}, count{};
+  for (int a = 0; a < Dim; ++a) {
+    const double edge = nb * h_[a];
+    first[a] = static_cast<int>(std::floor((lower[a] - forest_.grid().lower[a]) / edge));
+    count[a] = static_cast<int>(std::floor((upper[a] - forest_.grid().lower[a]) / edge)) - first[a] + 1;
+  }
+  if (first == first_block_ && count == blocks_) return false;
+  first_block_ = first;
+  blocks_ = count;
+  size_ = 1;
+  int stride = 1;
+  for (int a = 0; a < Dim; ++a) {
+    n_[a] = count[a] * nb;
+    origin_[a] = forest_.grid().lower[a] + first[a] * nb * h_[a];
+    stride_[static_cast<std::size_t>(a)] = stride;
+    stride *= n_[a] + 1;
+    size_ *= static_cast<std::size_t>(n_[a] + 1);
+  }
+  tiles_.clear();
+  block_at_.clear();
+  for_box<Dim>(filled<Dim>(0), count, [&](const IVec<Dim>& i) {
+    IVec<Dim> coord = i, at = i;
+    for (int a = 0; a < Dim; ++a) {
+      coord[a] += first[a];
+      at[a] *= nb;
+    }
+    const int b = forest_.find(level, coord);
+    if (b < 0 || !forest_.block(b).leaf) {
+      Vec<Dim> x;
+      for (int a = 0; a < Dim; ++a) x[a] = forest_.grid().lower[a] + (coord[a] + 0.5) * nb * h_[a];
+      fail(ErrorCode::failed_precondition,
+           "the hull has left the region refined for it near (y, z) = ({:.3f}, {:.3f}) m; raise hull_sweep, "
+           "hull_heave or hull_margin of the stage's mesh, or check why it moves so far",
+           x[Dim - 2], x[Dim - 1]);
+    }
+    tiles_.push_back({b, at});
+    block_at_.push_back(b);
+  });
+  return true;
+}
+
+template <int Dim>
+std::int64_t HullWindow<Dim>::global_cell(const IVec<Dim>& i) const {
+  constexpr int nb = BlockShape<Dim>::n;
+  int block = 0, m = 1;
+  IVec<Dim> cell{};
+  for (int a = 0; a < Dim; ++a) {
+    block += i[a] / nb * m;
+    m *= blocks_[a];
+    cell[a] = i[a] % nb;
+  }
+  return static_cast<std::int64_t>(block_at_[static_cast<std::size_t>(block)]) * BlockShape<Dim>::cells +
+         offset<Dim>(cell, cell_strides<Dim>());
+}
+
+template <int Dim>
+void HullWindow<Dim>::load_cells(const CellField<double, Dim>& f, std::vector<double>& out) const {
+  out.resize(size_);
+  for (const Tile& tile : tiles_) {
+    const double* source = f.block(tile.block);
+    for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
+      IVec<Dim> to = row;
+      for (int a = 0; a < Dim; ++a) to[a] += tile.at[a];
+      std::copy_n(source + offset<Dim>(row, cell_strides<Dim>()), BlockShape<Dim>::n, out.data() + at(to));
+    });
+  }
+}
+
+template <int Dim>
+void HullWindow<Dim>::store_cells(const std::vector<double>& in, CellField<double, Dim>& f) const {
+  for (const Tile& tile : tiles_) {
+    double* target = f.block(tile.block);
+    for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
+      IVec<Dim> from = row;
+      for (int a = 0; a < Dim; ++a) from[a] += tile.at[a];
+      std::copy_n(in.data() + at(from), BlockShape<Dim>::n, target + offset<Dim>(row, cell_strides<Dim>()));
+    });
+  }
+}
+
+template <int Dim>
+template <class T>
+void HullWindow<Dim>::load_faces(const FaceField<T, Dim>& f, int axis, std::vector<double>& out) const {
+  out.resize(size_);
+  const int count = BlockShape<Dim>::n + (axis == 0);
+  for (const Tile& tile : tiles_) {
+    const T* source = f.block(axis, tile.block);
+    for_rows<Dim>(filled<Dim>(0), faces_upper<Dim>(axis), [&](const IVec<Dim>& row) {
+      IVec<Dim> to = row;
+      for (int a = 0; a < Dim; ++a) to[a] += tile.at[a];
+      const T* s = source + offset<Dim>(row, face_strides<Dim>(axis));
+      double* d = out.data() + at(to);
+      for (int i = 0; i < count; ++i) d[i] = static_cast<double>(s[i]);
+    });
+  }
+}
+
+template <int Dim>
+template <class T>
+void HullWindow<Dim>::store_faces(const std::vector<double>& in, int axis, FaceField<T, Dim>& f) const {
+  const int count = BlockShape<Dim>::n + (axis == 0);
+  for (const Tile& tile : tiles_) {
+    T* target = f.block(axis, tile.block);
+    for_rows<Dim>(filled<Dim>(0), faces_upper<Dim>(axis), [&](const IVec<Dim>& row) {
+      IVec<Dim> from = row;
+      for (int a = 0; a < Dim; ++a) from[a] += tile.at[a];
+      const double* s = in.data() + at(from);
+      T* d = target + offset<Dim>(row, face_strides<Dim>(axis));
+      for (int i = 0; i < count; ++i) d[i] = static_cast<T>(s[i]);
+    });
+  }
+}
+
+template class HullWindow<2>;
+template class HullWindow<3>;
+#define SEAWAY_INSTANTIATE(T, D)                                                                     \
+  template void HullWindow<D>::load_faces<T>(const FaceField<T, D>&, int, std::vector<double>&) const; \
+  template void HullWindow<D>::store_faces<T>(const std::vector<double>&, int, FaceField<T, D>&) const;
+SEAWAY_INSTANTIATE(double, 2)
+SEAWAY_INSTANTIATE(double, 3)
+SEAWAY_INSTANTIATE(float, 2)
+SEAWAY_INSTANTIATE(float, 3)
+
+}  // namespace seaway::flow

@@ -1,0 +1,92 @@
+// A rectangle of whole finest-level blocks around the hull, held as dense arrays: everything that happens at
+// the hull (apertures, extension into it, volume book) works on plain indices here and never meets a block
+// edge or a level jump. Cells and faces share one layout: entry (i, j[, k]), 0 <= i <= n, axis 0 fastest;
+// face i of an axis lies on the lower side of cell i.
+#pragma once
+
+#include <vector>
+
+#include "core/field/field.hpp"
+
+namespace seaway::flow {
+
+using field::CellField;
+using field::FaceField;
+using mesh::BlockShape;
+using mesh::Forest;
+
+template <int Dim>
+class HullWindow {
+ public:
+  explicit HullWindow(const Forest<Dim>& forest) : forest_(forest) {}
+
+  /// Covers [lower, upper] (earth axes) with whole blocks. Throws Error(failed_precondition) when a block
+  /// there is not of the finest level: the hull has left the region refined for it.
+  /// Returns whether the blocks changed.
+  bool cover(const Vec<Dim>& lower, const Vec<Dim>& upper);
+
+  const IVec<Dim>& n() const { return n_; }       ///< cells along each axis
+  std::size_t size() const { return size_; }      ///< entries of an array
+  int stride(int axis) const { return stride_[static_cast<std::size_t>(axis)]; }
+  int at(const IVec<Dim>& i) const {
+    int o = 0;
+    for (int a = 0; a < Dim; ++a) o += i[a] * stride_[static_cast<std::size_t>(a)];
+    return o;
+  }
+  const Vec<Dim>& h() const { return h_; }
+  Vec<Dim> cell_centre(const IVec<Dim>& i) const {
+    Vec<Dim> x;
+    for (int a = 0; a < Dim; ++a) x[a] = origin_[a] + (i[a] + 0.5) * h_[a];
+    return x;
+  }
+  Vec<Dim> face_centre(const IVec<Dim>& i, int axis) const {
+    Vec<Dim> x = cell_centre(i);
+    x[axis] -= 0.5 * h_[axis];
+    return x;
+  }
+  double cell_volume() const { return h_.prod(); }
+  double face_area(int axis) const { return h_.prod() / h_[axis]; }
+
+  struct Tile {
+    int block = 0;
+    IVec<Dim> at{};  ///< window index of the block's first cell
+  };
+  const std::vector<Tile>& tiles() const { return tiles_; }
+  /// Index block * cells + cell in a field of the forest.
+  std::int64_t global_cell(const IVec<Dim>& i) const;
+
+  void load_cells(const CellField<double, Dim>& f, std::vector<double>& out) const;
+  void store_cells(const std::vector<double>& in, CellField<double, Dim>& f) const;
+  template <class T>
+  void load_faces(const FaceField<T, Dim>& f, int axis, std::vector<double>& out) const;
+  template <class T>
+  void store_faces(const std::vector<double>& in, int axis, FaceField<T, Dim>& f) const;
+
+  /// f(index) over all cells, or all faces of an axis; rows of tiles on threads.
+  template <class F>
+  void for_cells(F&& f) const {
+    field::for_box<Dim>(field::filled<Dim>(0), n_, f);
+  }
+  template <class F>
+  void for_faces(int axis, F&& f) const {
+    IVec<Dim> upper = n_;
+    ++upper[axis];
+    field::for_box<Dim>(field::filled<Dim>(0), upper, f);
+  }
+  const Forest<Dim>& forest() const { return forest_; }
+
+ private:
+  const Forest<Dim>& forest_;
+  IVec<Dim> first_block_{}, n_{};
+  std::array<int, Dim> stride_{};
+  std::size_t size_ = 0;
+  Vec<Dim> origin_ = Vec<Dim>::Zero(), h_ = Vec<Dim>::Ones();
+  std::vector<Tile> tiles_;
+  std::vector<int> block_at_;  ///< dense, by block position in the window
+  IVec<Dim> blocks_{};
+};
+
+extern template class HullWindow<2>;
+extern template class HullWindow<3>;
+
+}  // namespace seaway::flow

@@ -1,0 +1,233 @@
+#include "core/flow/volume_book.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/flow/plic.hpp"
+
+namespace seaway::flow {
+
+using field::filled;
+using field::for_box;
+
+namespace {
+
+/// Part of the reservoirs that goes back to the flow in a second.
+constexpr double release_rate = 25.0;
+
+template <int Dim>
+Plane<Dim> plane_at(const HullWindow<Dim>& window, const std::vector<double>& vof, int at) {
+  double stencil[Dim == 2 ? 9 : 27];
+  int e = 0;
+  for_box<Dim>(filled<Dim>(-1), filled<Dim>(2), [&](const IVec<Dim>& o) {
+    int index = at;
+    for (int a = 0; a < Dim; ++a) index += o[a] * window.stride(a);
+    stencil[e++] = vof[static_cast<std::size_t>(index)];
+  });
+  Plane<Dim> plane;
+  plane.normal = interface_normal<Dim>(stencil);
+  plane.d = plane_constant<Dim>(plane.normal, vof[static_cast<std::size_t>(at)]);
+  return plane;
+}
+
+template <int Dim>
+bool on_edge(const HullWindow<Dim>& window, const IVec<Dim>& i, int margin) {
+  for (int a = 0; a < Dim; ++a)
+    if (i[a] < margin || i[a] >= window.n()[a] - margin) return true;
+  return false;
+}
+
+}  // namespace
+
+template <int Dim>
+double VolumeBook<Dim>::visible_in(const HullMask<Dim>& mask, const IVec<Dim>& i,
+                                   const std::vector<double>& vof) const {
+  const HullWindow<Dim>& window = mask.window();
+  const int at = window.at(i);
+  const double theta = mask.fluid_fraction()[static_cast<std::size_t>(at)];
+  const double c = vof[static_cast<std::size_t>(at)];
+  const double volume = window.cell_volume();
+  if (theta >= 1) return c * volume;
+  if (theta <= 0 || c <= mixed_limit) return 0;
+  if (c >= 1 - mixed_limit || on_edge<Dim>(window, i, 1)) return c * theta * volume;
+  const Plane<Dim> plane = plane_at<Dim>(window, vof, at);
+  return std::max(0.0, c * volume - mask.submerged_solid(i, plane.normal, plane.d));
+}
+
+template <int Dim>
+void VolumeBook<Dim>::measure(const HullMask<Dim>& mask, const std::vector<double>& vof) {
+  visible_.assign(mask.window().size(), 0.0);
+  mask.window().for_cells([&](const IVec<Dim>& i) {
+    visible_[static_cast<std::size_t>(mask.window().at(i))] = visible_in(mask, i, vof);
+  });
+}
+
+template <int Dim>
+void VolumeBook<Dim>::restart(const HullMask<Dim>& mask, const std::vector<double>& vof) {
+  reservoir_.clear();
+  book_.clear();
+  last_defect_ = 0;
+  measure(mask, vof);
+}
+
+template <int Dim>
+void VolumeBook<Dim>::begin_step(const HullMask<Dim>& mask, const FlowState<Dim>& state) {
+  for (int axis = 0; axis < Dim; ++axis) {
+    mask.window().load_faces(state.w, axis, w_[static_cast<std::size_t>(axis)]);
+    swept_[static_cast<std::size_t>(axis)].assign(mask.window().size(), 0.0);
+  }
+}
+
+template <int Dim>
+void VolumeBook<Dim>::add_fluxes(const HullMask<Dim>& mask, int axis, const FaceField<double, Dim>& swept) {
+  mask.window().load_faces(swept, axis, loaded_);
+  auto& sum = swept_[static_cast<std::size_t>(axis)];
+  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += loaded_[k];
+}
+
+template <int Dim>
+void VolumeBook<Dim>::close_fluxes(const HullMask<Dim>& mask, const CellField<double, Dim>& vof,
+                                   const motion::Twist<Dim>& twist, double dt) {
+  const HullWindow<Dim>& window = mask.window();
+  const auto& theta = mask.fluid_fraction();
+  book_.clear();
+  window.for_cells([&](const IVec<Dim>& i) {
+    const auto at = static_cast<std::size_t>(window.at(i));
+    bool touched = theta[at] < 1;
+    for (int axis = 0; axis < Dim; ++axis) {
+      const auto& solid = mask.solid_face(axis);
+      touched = touched || solid[at] > 0 || solid[at + static_cast<std::size_t>(window.stride(axis))] > 0;
+    }
+    if (!touched) return;
+    double volume = visible_[at];
+    for (int axis = 0; axis < Dim; ++axis) {
+      const auto ax = static_cast<std::size_t>(axis);
+      for (int side = 0; side < 2; ++side) {
+        const std::size_t f = at + static_cast<std::size_t>(side * window.stride(axis));
+        const double w = w_[ax][f], solid = mask.solid_face(axis)[f];
+        double passed = swept_[ax][f];  // [m]
+        if (solid > 0) {
+          IVec<Dim> face = i;
+          face[axis] += side;
+          const double wall = motion::velocity_at<Dim>(twist, mask.half().pose, window.face_centre(face, axis))[axis];
+          double phi;
+          if (std::abs(w * dt) > 1e-12 * window.h()[axis]) {
+            phi = std::clamp(passed / (w * dt), 0.0, 1.0);
+          } else {
+            phi = std::clamp(vof.data()[static_cast<std::size_t>(window.global_cell(i))], 0.0, 1.0);
+          }
+          passed = phi * dt * (w - solid * wall);
+        }
+        volume -= (side == 0 ? -1.0 : 1.0) * passed * window.face_area(axis);
+      }
+    }
+    book_[window.global_cell(i)] = volume;
+  });
+}
+
+template <int Dim>
+int VolumeBook<Dim>::space_of(const HullMask<Dim>& mask, const IVec<Dim>& i) const {
+  const HullWindow<Dim>& window = mask.window();
+  const int at = window.at(i);
+  const auto& phi = mask.now().phi;
+  Vec<Dim> x = window.cell_centre(i), g;
+  for (int a = 0; a < Dim; ++a) {
+    const int s = window.stride(a);
+    g[a] = (phi[static_cast<std::size_t>(at + s)] - phi[static_cast<std::size_t>(at - s)]) / (2 * window.h()[a]);
+  }
+  const double reach = 0.7 * window.h().maxCoeff() - phi[static_cast<std::size_t>(at)];
+  if (reach > 0 && g.norm() > 0.1) x += g / g.norm() * reach;
+  return mask.space_at(x);
+}
+
+template <int Dim>
+double VolumeBook<Dim>::give(const HullMask<Dim>& mask, const IVec<Dim>& i, double defect,
+                             std::vector<double>& vof) const {
+  const HullWindow<Dim>& window = mask.window();
+  const auto& theta = mask.fluid_fraction();
+  const double volume = window.cell_volume();
+  const int space = space_of(mask, i);
+  std::vector<std::pair<std::size_t, double>> takers;
+  double weights = 0;
+  for_box<Dim>(filled<Dim>(-2), filled<Dim>(3), [&](const IVec<Dim>& o) {
+    IVec<Dim> j = i;
+    for (int a = 0; a < Dim; ++a) j[a] += o[a];
+    if (on_edge<Dim>(window, j, 2)) return;
+    const auto at = static_cast<std::size_t>(window.at(j));
+    const double c = vof[at];
+    if (theta[at] < 1 || !is_mixed(c) || mask.space_at(window.cell_centre(j)) != space) return;
+    takers.emplace_back(at, c * (1 - c));
+    weights += c * (1 - c);
+  });
+  double left = defect;
+  for (const auto& [at, weight] : takers) {
+    const double before = vof[at];
+    vof[at] = std::clamp(before + defect * weight / weights / volume, 0.0, 1.0);
+    left -= (vof[at] - before) * volume;
+  }
+  return left;
+}
+
+template <int Dim>
+void VolumeBook<Dim>::release(const HullMask<Dim>& mask, std::vector<double>& vof, double dt) {
+  const HullWindow<Dim>& window = mask.window();
+  const auto& theta = mask.fluid_fraction();
+  const double part = 1 - std::exp(-release_rate * dt);
+  for (auto& [space, owed] : reservoir_) {
+    if (std::abs(owed) < 1e-15 * window.cell_volume()) continue;
+    std::vector<std::pair<std::size_t, double>> takers;
+    double weights = 0;
+    window.for_cells([&](const IVec<Dim>& i) {
+      const auto at = static_cast<std::size_t>(window.at(i));
+      const double c = vof[at];
+      if (theta[at] < 1 || !is_mixed(c) || on_edge<Dim>(window, i, 2)) return;
+      if (mask.space_at(window.cell_centre(i)) != space) return;
+      takers.emplace_back(at, c * (1 - c));
+      weights += c * (1 - c);
+    });
+    const double amount = part * owed;
+    for (const auto& [at, weight] : takers) {
+      const double before = vof[at];
+      vof[at] = std::clamp(before + amount * weight / weights / window.cell_volume(), 0.0, 1.0);
+      owed -= (vof[at] - before) * window.cell_volume();
+    }
+  }
+}
+
+template <int Dim>
+void VolumeBook<Dim>::settle(const HullMask<Dim>& mask, const std::vector<double>& advected,
+                             std::vector<double>& vof, double dt, bool correct) {
+  const HullWindow<Dim>& window = mask.window();
+  const auto& theta = mask.fluid_fraction();
+  last_defect_ = 0;
+  // All defects first: what one cell gives must not change what the next one sees.
+  std::vector<std::pair<IVec<Dim>, double>> defects;
+  window.for_cells([&](const IVec<Dim>& i) {
+    const auto at = static_cast<std::size_t>(window.at(i));
+    const auto entry = book_.find(window.global_cell(i));
+    if (entry == book_.end() && theta[at] >= 1) return;
+    const double wanted = entry != book_.end() ? entry->second : advected[at] * window.cell_volume();
+    const double defect = wanted - visible_in(mask, i, vof);
+    if (defect != 0) defects.emplace_back(i, defect);
+  });
+  for (const auto& [i, defect] : defects) {
+    last_defect_ += std::abs(defect);
+    if (!correct) continue;
+    const double left = give(mask, i, defect, vof);
+    if (left != 0) reservoir_[space_of(mask, i)] += left;
+  }
+  if (correct) release(mask, vof, dt);
+  measure(mask, vof);
+}
+
+template <int Dim>
+double VolumeBook<Dim>::reservoir_total() const {
+  double sum = 0;
+  for (const auto& [space, owed] : reservoir_) sum += owed;
+  return sum;
+}
+
+template class VolumeBook<2>;
+template class VolumeBook<3>;
+
+}  // namespace seaway::flow

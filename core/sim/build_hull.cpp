@@ -1,0 +1,104 @@
+#include "core/sim/build_hull.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/base/error.hpp"
+
+namespace seaway::sim {
+
+namespace {
+
+hull::Box<2> section_box(const Vec3& lower, const Vec3& upper) {
+  return {from_vec3<2>(lower), from_vec3<2>(upper)};
+}
+
+hull::SectionSpec::Shape section_shape(Hull::Shape shape) {
+  switch (shape) {
+    case Hull::Shape::box:
+      return hull::SectionSpec::Shape::box;
+    case Hull::Shape::rounded_box:
+      return hull::SectionSpec::Shape::rounded_box;
+    case Hull::Shape::polygon:
+      return hull::SectionSpec::Shape::polygon;
+    case Hull::Shape::offsets_section:
+      return hull::SectionSpec::Shape::offsets;
+    case Hull::Shape::none:
+      break;
+  }
+  fail(ErrorCode::internal, "a case without hull has no section");
+}
+
+}  // namespace
+
+double actual_cell(double base_cell, double wanted) {
+  double cell = base_cell;
+  for (int level = 0; level < 60 && cell > cell_tolerance * wanted; ++level) cell *= 0.5;
+  return cell;
+}
+
+double hull_cell(const Case& c, const Stage& stage) {
+  if (stage.mesh.hull_cell > 0) return actual_cell(c.base_cell, stage.mesh.hull_cell);
+  double wanted = c.base_cell;
+  const Vec2 at(c.body.offset.y(), 0.0);
+  for (const RefinementBox& box : stage.mesh.boxes) {
+    const bool holds = (from_vec3<2>(box.lower).array() <= at.array()).all() &&
+                       (from_vec3<2>(box.upper).array() >= at.array()).all();
+    if (holds && box.cell > 0) wanted = std::min(wanted, box.cell);
+  }
+  return actual_cell(c.base_cell, wanted);
+}
+
+hull::SectionSpec section_spec(const Hull& hull, const std::string& folder) {
+  hull::SectionSpec spec;
+  spec.shape = section_shape(hull.shape);
+  spec.beam = hull.beam;
+  spec.height = hull.height;
+  spec.corner_radius = hull.corner_radius;
+  for (const auto& v : hull.vertices) spec.vertices.emplace_back(v[0], v[1]);
+  const std::filesystem::path file(hull.offsets_file);
+  spec.offsets_file = file.empty() || file.is_absolute() || folder.empty()
+                          ? hull.offsets_file
+                          : (std::filesystem::path(folder) / file).string();
+  spec.station = hull.station;
+  spec.scale = hull.scale;
+  spec.extend_to = hull.extend_to;
+  for (const Compartment& from : hull.compartments) {
+    hull::CompartmentSpec to{
+        from.name, section_box(from.lower, from.upper), from.wall_thickness, from.permeability, {}};
+    for (const Opening& opening : from.openings)
+      to.openings.push_back({opening.name, section_box(opening.lower, opening.upper)});
+    spec.compartments.push_back(std::move(to));
+  }
+  return spec;
+}
+
+std::vector<bool> open_compartments(const Hull& hull) {
+  std::vector<bool> open;
+  for (const Compartment& c : hull.compartments) open.push_back(c.flooded);
+  return open;
+}
+
+std::shared_ptr<const hull::SectionHull> build_section_hull(const Case& c) {
+  if (c.hull.shape == Hull::Shape::none) return nullptr;
+  SEAWAY_CHECK(!c.stages.empty(), "the case has no stages; at least one is needed");
+  double finest = c.base_cell, coarsest = 0;
+  for (const Stage& stage : c.stages) {
+    const double cell = hull_cell(c, stage);
+    finest = std::min(finest, cell);
+    coarsest = std::max(coarsest, cell);
+  }
+  return std::make_shared<hull::SectionHull>(hull::build_section(section_spec(c.hull, c.folder)),
+                                             0.5 * finest, 16 * coarsest);
+}
+
+double start_draft(const Case& c, const hull::Section& section) {
+  if (c.body.draft > 0) return c.body.draft;
+  const auto solid = hull::buoyant_loops(section, open_compartments(c.hull));
+  const auto draft = hull::find_waterline(solid, 0.0, c.body.mass / c.fluids.rho_water);
+  SEAWAY_CHECK(draft, "mass {} kg/m exceeds what the hull can displace, {} kg/m; it cannot float",
+               c.body.mass, c.fluids.rho_water * hull::hydrostatics(solid, {1e9, 0.0}).area);
+  return *draft;
+}
+
+}  // namespace seaway::sim

@@ -1,0 +1,43 @@
+// The hull of a case as geometry: the mapping from the case's description to core/hull, and where
+// the hull floats. 2-D; relative file names are looked up in Case::folder. Pure functions,
+// thread-safe.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/hull/hydrostatics.hpp"
+#include "core/hull/section_hull.hpp"
+#include "core/sim/case.hpp"
+
+namespace seaway::sim {
+
+/// Largest ratio of a cell to the one wanted: tanks that are no whole multiple of the base cell
+/// stretch it by so much (mesh::make_tank_grid).
+inline constexpr double cell_tolerance = 1.12;
+
+/// The base cell halved until it is not larger than `wanted` to `cell_tolerance`.
+/// Before: both positive.
+double actual_cell(double base_cell, double wanted);
+
+/// Edge of the cells around the hull in a stage [m]: by the hull rule, else by the finest box
+/// around the hull's start position at the calm level, else the base cell.
+double hull_cell(const Case& c, const Stage& stage);
+
+/// Before: shape is not none. Throws nothing; wrong values show in build_section.
+hull::SectionSpec section_spec(const Hull& hull, const std::string& folder);
+
+/// Which compartments are open to the sea at the start: those that are flooded.
+std::vector<bool> open_compartments(const Hull& hull);
+
+/// nullptr if the case has no hull. The distance table has half the finest hull cell of all stages
+/// as spacing and reaches 16 of the coarsest hull cells beyond the hull. Throws as
+/// hull::build_section.
+std::shared_ptr<const hull::SectionHull> build_section_hull(const Case& c);
+
+/// Draft at the start, upright: Body::draft, or if that is 0 the draft at which the hull floats
+/// with the flooded compartments open. Throws Error(invalid_argument) if it does not float.
+double start_draft(const Case& c, const hull::Section& section);
+
+}  // namespace seaway::sim

@@ -1,0 +1,36 @@
+#include "core/sim/check_case.hpp"
+
+#include <algorithm>
+
+#include "core/sim/findings.hpp"
+
+namespace seaway::sim {
+
+bool CaseReport::ok() const {
+  return std::none_of(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& d) {
+    return d.severity == Diagnostic::Severity::error;
+  });
+}
+
+CaseReport check_case(const Case& c) {
+  CaseReport report;
+  Findings findings(report.diagnostics);
+  CheckState state{c, findings, report};
+  if (c.dim != 2) {
+    findings.error("dimension",
+                   fmt::format("{} is not available; this version runs sections: 2", c.dim),
+                   "describe a section in the y-z plane");
+    return report;
+  }
+  check_fluids_and_tank(state);
+  check_wave_and_zones(state);
+  check_settings_and_outputs(state);
+  check_hull(state);
+  check_body(state);
+  check_floating(state);
+  check_stages(state);
+  if (report.ok()) estimate_cost(state);
+  return report;
+}
+
+}  // namespace seaway::sim

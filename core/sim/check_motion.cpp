@@ -1,0 +1,216 @@
+// Mass, freedom and prescribed motion of the hull; how and where it floats.
+#include <cmath>
+#include <set>
+
+#include "core/hull/hydrostatics.hpp"
+#include "core/sim/build_hull.hpp"
+#include "core/sim/findings.hpp"
+
+namespace seaway::sim {
+
+namespace {
+
+bool exists_in_section(Dof dof) {
+  return dof == Dof::sway || dof == Dof::heave || dof == Dof::roll;
+}
+
+void check_freedoms(CheckState& s) {
+  Findings& f = s.findings;
+  const Body& body = s.c.body;
+  std::set<Dof> seen;
+  for (std::size_t i = 0; i < body.free.size(); ++i) {
+    const std::string field = fmt::format("body.free[{}]", i);
+    if (!exists_in_section(body.free[i]))
+      f.error(field, fmt::format("a section has no {}", to_string(body.free[i])),
+              "allowed: sway, heave, roll");
+    if (!seen.insert(body.free[i]).second)
+      f.error(field, fmt::format("{} is listed twice", to_string(body.free[i])),
+              "list each motion once");
+  }
+  std::set<Dof> prescribed;
+  for (std::size_t i = 0; i < body.prescribed.size(); ++i) {
+    const Body::Prescribed& p = body.prescribed[i];
+    const std::string field = fmt::format("body.prescribed[{}]", i);
+    if (!exists_in_section(p.dof))
+      f.error(field + ".dof", fmt::format("a section has no {}", to_string(p.dof)),
+              "allowed: sway, heave, roll");
+    if (s.is_free(p.dof))
+      f.error(field + ".dof", fmt::format("{} is both free and prescribed", to_string(p.dof)),
+              "remove it from one of them");
+    if (!prescribed.insert(p.dof).second)
+      f.error(field + ".dof", fmt::format("{} is prescribed twice", to_string(p.dof)),
+              "keep one of them");
+    f.finite(field + (p.dof >= Dof::roll ? ".amplitude_deg" : ".amplitude_m"), p.amplitude);
+    f.positive(field + ".period_s", p.period);
+    f.not_negative(field + ".ramp_s", p.ramp);
+  }
+}
+
+void check_release(CheckState& s) {
+  Findings& f = s.findings;
+  const Body& body = s.c.body;
+  if (body.release == Body::Release::at_time)
+    f.not_negative("body.release.at_time.time_s", body.release_time);
+  if (body.release != Body::Release::converged) return;
+  f.above_to("body.release.converged.tolerance", body.release_tolerance, 0, 1);
+  f.whole_in_range("body.release.converged.min_periods", body.release_min_periods, 1, 1000);
+  f.whole_in_range("body.release.converged.max_periods", body.release_max_periods,
+                   body.release_min_periods, 1000);
+}
+
+/// Corners of the hull at the start, in the tank.
+hull::Polygon start_outline(const CheckState& s, double draft) {
+  const Body& body = s.c.body;
+  const double c = std::cos(body.angles.x()), sn = std::sin(body.angles.x());
+  const Vec2 cog = from_vec3<2>(body.cog);
+  const Vec2 at = cog - Vec2(0, draft) + from_vec3<2>(body.offset);
+  hull::Polygon outline;
+  for (const Vec2& x : s.section->outer) {
+    const Vec2 r = x - cog;
+    outline.push_back(at + Vec2(c * r.x() - sn * r.y(), sn * r.x() + c * r.y()));
+  }
+  return outline;
+}
+
+void check_place(CheckState& s, double draft) {
+  if (!s.tank_ok) return;
+  const hull::Box<2> box = hull::bounds_of(start_outline(s, draft));
+  const Tank& tank = s.c.tank;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double low = tank.lower[axis + 1], high = tank.upper[axis + 1];
+    if (box.lower[axis] > low && box.upper[axis] < high) continue;
+    s.findings.error(
+        axis == 0 ? "tank.y_m" : "tank.z_m",
+        fmt::format(
+            "the hull at its start reaches from {:.4g} to {:.4g} m, outside the tank: {} to "
+            "{} m",
+            box.lower[axis], box.upper[axis], low, high),
+        "enlarge the tank, or check the hull's size, draft and body.offset");
+  }
+  if (tank.periodic[1]) return;
+  const bool to_port = std::sin(s.c.wave.heading) > 0;  // the wave comes from the lower end
+  const double low =
+      tank.lower.y() + (to_port ? s.c.zones.generation_length : s.c.zones.absorption_length);
+  const double high =
+      tank.upper.y() - (to_port ? s.c.zones.absorption_length : s.c.zones.generation_length);
+  if (low < high && (box.lower.x() < low || box.upper.x() > high))
+    s.findings.error(
+        "zones",
+        fmt::format("the hull from {:.4g} to {:.4g} m stands in a zone; free of zones: "
+                    "{:.4g} to {:.4g} m",
+                    box.lower.x(), box.upper.x(), low, high),
+        "shorten the zones, lengthen the tank or move the hull (body.offset)");
+}
+
+void check_given_draft(CheckState& s, double capacity, double afloat) {
+  const Body& body = s.c.body;
+  const double top = hull::bounds_of(s.section->outer).upper.y();
+  if (body.draft > top)
+    s.findings.error(
+        "body.draft_m", fmt::format("{} m cannot float: the hull is {} m high", body.draft, top),
+        "give a draft below the hull's height; to start it under water use body.offset.z_m");
+  else if (body.mass > capacity)
+    s.findings.warning("body.mass_kg_per_m",
+                       fmt::format("{} kg/m is more than the hull can displace, {:.6g} "
+                                   "kg/m: it will sink",
+                                   body.mass, capacity),
+                       "lower the mass if it is meant to float");
+  else if (s.is_free(Dof::heave) && std::abs(body.draft - afloat) > 0.02 * afloat)
+    s.findings.warning("body.draft_m",
+                       fmt::format("{} m is not where it floats, {:.4g} m; heave starts with "
+                                   "the difference",
+                                   body.draft, afloat),
+                       "leave draft_m out to start at equilibrium");
+}
+
+void fill_summary(CheckState& s, const std::vector<hull::WeightedLoop>& open, double area,
+                  double draft) {
+  HydrostaticsSummary& h = s.report.hydrostatics;
+  const Vec2 cog = from_vec3<2>(s.c.body.cog);
+  const hull::Hydrostatics water = hull::hydrostatics(open, {draft, 0.0});
+  h.valid = true;
+  h.mass = s.c.body.mass;
+  h.displaced_volume = water.area;
+  h.draft = draft;
+  h.kb = water.buoyancy_centre.y();
+  h.bm = water.bm;
+  h.gm = hull::metacentric_height(open, {draft, 0.0}, cog);
+  h.heel = hull::find_equilibrium(open, area, cog, true).at.heel;
+  const auto intact =
+      hull::buoyant_loops(*s.section, std::vector<bool>(s.section->compartments.size(), false));
+  const hull::Equilibrium e = hull::find_equilibrium(intact, area, cog, false);
+  h.intact_draft = e.at.waterline;
+  h.intact_gm = e.floats ? e.gm : 0.0;
+  const double gravity = s.c.fluids.gravity;
+  if (h.gm > 0 && s.c.body.gyradii.x() > 0)
+    h.natural_roll_period_dry = 2 * pi * s.c.body.gyradii.x() / std::sqrt(gravity * h.gm);
+  if (s.is_free(Dof::roll)) s.roll_period = h.natural_roll_period_dry;
+  // Added mass about as large as the mass.
+  if (s.is_free(Dof::heave) && water.waterplane_breadth > 0)
+    s.heave_period = 2 * pi * std::sqrt(2 * area / (gravity * water.waterplane_breadth));
+}
+
+}  // namespace
+
+void check_body(CheckState& s) {
+  Findings& f = s.findings;
+  const Body& body = s.c.body;
+  const int before = f.n_errors();
+  if (!s.has_hull()) {
+    if (!body.free.empty() || !body.prescribed.empty())
+      f.error("body", "motions are given but there is no hull", "add a hull or remove the body");
+    return;
+  }
+  f.positive("body.mass_kg_per_m", body.mass);
+  f.finite("body.cog.y_m", body.cog.y());
+  f.finite("body.cog.z_m", body.cog.z());
+  if (s.is_free(Dof::roll))
+    f.positive("body.gyradii.x_m", body.gyradii.x());
+  else
+    f.not_negative("body.gyradii.x_m", body.gyradii.x());
+  f.not_negative("body.draft_m", body.draft);
+  f.finite("body.offset.y_m", body.offset.y());
+  f.finite("body.offset.z_m", body.offset.z());
+  f.in_range("body.angles.roll_deg", body.angles.x() / degree, -180, 180);
+  check_freedoms(s);
+  check_release(s);
+  s.body_ok = f.n_errors() == before;
+}
+
+void check_floating(CheckState& s) {
+  if (!s.section || !s.body_ok || !s.fluids_ok) return;
+  const Body& body = s.c.body;
+  const double rho = s.c.fluids.rho_water, area = body.mass / rho;
+  const auto open = hull::buoyant_loops(*s.section, open_compartments(s.c.hull));
+  const auto afloat = hull::find_waterline(open, 0.0, area);
+  const double capacity = rho * hull::hydrostatics(open, {1e9, 0.0}).area;
+  if (body.draft > 0) {
+    check_given_draft(s, capacity, afloat.value_or(0.0));
+  } else if (!afloat) {
+    s.findings.error(
+        "body.mass_kg_per_m",
+        fmt::format("{} kg/m cannot float: the hull displaces at most {:.6g} kg/m{}", body.mass,
+                    capacity,
+                    s.c.hull.compartments.empty() ? "" : " with its flooded compartments"),
+        "lower the mass, enlarge the hull, or give body.draft_m to let it sink");
+  }
+  if (body.draft > 0 || afloat) check_place(s, body.draft > 0 ? body.draft : *afloat);
+  if (!afloat) return;
+  fill_summary(s, open, area, *afloat);
+  const HydrostaticsSummary& h = s.report.hydrostatics;
+  if (!s.is_free(Dof::roll)) return;
+  if (!(h.gm > 0))
+    s.findings.warning(
+        "body.cog.z_m",
+        fmt::format("KG = {} m gives GM = {:.4g} m at draft {:.4g} m: upright it is not stable",
+                    body.cog.z(), h.gm, h.draft),
+        fmt::format("KM is {:.4g} m; lower the centre of gravity", h.kb + h.bm));
+  else if (std::abs(h.heel) > 0.1 * degree)
+    s.findings.warning("body.cog.y_m",
+                       fmt::format("the hull does not float upright: it comes to rest at {:.3g} "
+                                   "degrees of roll",
+                                   h.heel / degree),
+                       "start it there with body.angles.roll_deg, or balance it");
+}
+
+}  // namespace seaway::sim

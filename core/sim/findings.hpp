@@ -1,0 +1,71 @@
+// The list of what is wrong with a case, and the checks that fill it (one file a subject). Internal
+// to check_case. Every comparison is written so that NaN fails it.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/hull/section_shape.hpp"
+#include "core/sim/case.hpp"
+#include "core/sim/check_case.hpp"
+
+namespace seaway::sim {
+
+class Findings {
+ public:
+  explicit Findings(std::vector<Diagnostic>& list) : list_(list) {}
+
+  void error(std::string field, std::string message, std::string hint);
+  void warning(std::string field, std::string message, std::string hint);
+
+  /// Each returns whether the value is allowed, and reports it as an error if not.
+  bool finite(const std::string& field, double value);
+  bool positive(const std::string& field, double value);
+  bool not_negative(const std::string& field, double value);
+  bool in_range(const std::string& field, double value, double lower, double upper);
+  /// lower < value <= upper
+  bool above_to(const std::string& field, double value, double lower, double upper);
+  bool whole_in_range(const std::string& field, int value, int lower, int upper);
+  /// lower < upper, both finite.
+  bool extent(const std::string& field, double lower, double upper);
+  /// Errors so far: a subject whose numbers are wrong is not looked at further.
+  int n_errors() const { return n_errors_; }
+
+ private:
+  std::vector<Diagnostic>& list_;
+  int n_errors_ = 0;
+};
+
+/// What later checks know from earlier ones.
+struct CheckState {
+  const Case& c;
+  Findings& findings;
+  CaseReport& report;
+  bool tank_ok = false, fluids_ok = false, wave_ok = false, base_cell_ok = false;
+  double wave_length = 0, wave_period = 0;   ///< 0: calm water, or unknown
+  std::optional<hull::Section> section{};    ///< if the hull could be built
+  bool body_ok = false;                      ///< numbers of the body
+  double roll_period = 0, heave_period = 0;  ///< rough natural periods; 0: not free or unknown
+  bool is_free(Dof dof) const;
+  bool has_hull() const { return c.hull.shape != Hull::Shape::none; }
+};
+
+const char* to_string(Dof dof);
+
+void check_fluids_and_tank(CheckState& s);       // check_tank.cpp
+void check_wave_and_zones(CheckState& s);        // check_tank.cpp
+void check_settings_and_outputs(CheckState& s);  // check_tank.cpp
+void check_hull(CheckState& s);                  // check_hull.cpp: shape, compartments
+void check_body(CheckState& s);                  // check_motion.cpp: numbers and freedoms
+void check_floating(CheckState& s);  // check_motion.cpp: hydrostatics, place in the tank
+void check_stages(CheckState& s);    // check_stages.cpp: mesh rules, ends, resolution
+void estimate_cost(CheckState& s);   // estimate_cost.cpp: cells, steps, time
+
+/// Linear dispersion relation omega^2 = g k tanh(k depth): length from period and back [m, s].
+double linear_wave_length(double period, double depth, double gravity);
+double linear_wave_period(double length, double depth, double gravity);
+
+}  // namespace seaway::sim
