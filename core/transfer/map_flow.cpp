@@ -2,25 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.hpp"
 #include "core/base/run_context.hpp"
 #include "core/field/restrict.hpp"
 #include "core/transfer/coarsen.hpp"
 #include "core/transfer/linear.hpp"
+#include "core/transfer/local_rbf.hpp"
+#include "core/transfer/prbf_flow.hpp"
 #include "core/transfer/split_vof.hpp"
 
 namespace seaway::transfer {
 namespace {
-
-template <int Dim>
-bool is_set(const CellField<double, Dim>& f) {
-  return !f.data().empty();
-}
-template <int Dim>
-bool is_set(const FaceField<double, Dim>& f) {
-  return !f.data(0).empty();
-}
 
 template <int Dim>
 void restrict_all(const Forest<Dim>& forest, FlowFields<Dim>& f) {
@@ -106,6 +100,33 @@ class Step {
   const MeshPair<Dim> pair_;
 };
 
+std::string name_of(MapMethod method) {
+  switch (method) {
+    case MapMethod::local_rbf: return "local-rbf";
+    case MapMethod::linear: return "linear";
+    case MapMethod::prbf: return "prbf";
+  }
+  return "";
+}
+
+template <int Dim>
+void describe_mesh(const MapOptions& options, const Forest<Dim>& to, const MeshPair<Dim>& pair,
+                   MapReport& report) {
+  report.method = name_of(options.method);
+  report.origin.assign(static_cast<std::size_t>(to.n_blocks()) * BlockShape<Dim>::cells, 0);
+  const bool none_kept = options.method == MapMethod::prbf && options.prbf.evaluate_all;
+  for (const int b : to.leaves()) {
+    Origin origin = pair.source(b).origin;
+    if (none_kept) origin = Origin::refined;
+    constexpr int cells = BlockShape<Dim>::cells;
+    std::fill_n(report.origin.begin() + static_cast<std::ptrdiff_t>(b) * cells, cells,
+                static_cast<char>(origin));
+    (origin == Origin::kept ? report.kept_cells
+     : origin == Origin::refined ? report.refined_cells : report.coarsened_cells) += cells;
+  }
+  report.new_cells = report.refined_cells + report.coarsened_cells;
+}
+
 template <int Dim>
 void describe_vof(const Forest<Dim>& to, const CellField<double, Dim>& vof, MapReport& report) {
   report.vof_min = std::numeric_limits<double>::infinity();
@@ -159,9 +180,13 @@ MapReport map_flow(const MapOptions& options, const Forest<Dim>& from, const For
                "mapping tail degree {} is not supported; use 1 or 2", options.degree);
   SEAWAY_CHECK(options.radius == 1 || options.radius == 2,
                "mapping stencil radius {} is not supported; use 1 or 2", options.radius);
+  SEAWAY_ASSERT(&in != &out);
   const double start = process_cpu_seconds();
   const MeshPair<Dim> pair(from, to);
   const auto between = forests_between(from, to);
+  MapReport report;
+  if (is_set(in.vof)) report.water_before = volume_integral(from, in.vof);
+  if (is_set(in.w)) report.divergence_before = max_divergence(from, in.w);
 
   FlowFields<Dim> current = in;
   restrict_all(from, current);
@@ -175,27 +200,22 @@ MapReport map_flow(const MapOptions& options, const Forest<Dim>& from, const For
   }
   out = std::move(current);
 
-  MapReport report;
-  report.method = options.method == MapMethod::linear ? "linear" : "local-rbf";
-  report.kept_cells = pair.cells(Origin::kept);
-  report.refined_cells = pair.cells(Origin::refined);
-  report.coarsened_cells = pair.cells(Origin::coarsened);
-  report.new_cells = report.refined_cells + report.coarsened_cells;
+  if (options.method == MapMethod::prbf) {
+    const bool with_vof = options.vof == VofMethod::bounded;
+    FlowFields<Dim> source = in;  // coarse faces at level jumps hold the means of the fine ones
+    restrict_all(from, source);
+    const PrbfReport prbf = prbf_flow(options.prbf, from, to, pair, with_vof, source, out);
+    restrict_all(to, out);
+    count = {prbf.degenerate + prbf.indefinite, 1};
+  }
+  describe_mesh(options, to, pair, report);
   report.fall_backs = count.fall_backs;
   report.lebesgue = count.lebesgue;
-  report.origin.assign(static_cast<std::size_t>(to.n_blocks()) * BlockShape<Dim>::cells, 0);
-  for (const int b : to.leaves())
-    std::fill_n(report.origin.begin() + static_cast<std::ptrdiff_t>(b) * BlockShape<Dim>::cells,
-                BlockShape<Dim>::cells, static_cast<char>(pair.source(b).origin));
-  if (is_set(in.vof)) {
+  if (is_set(out.vof)) {
     describe_vof(to, out.vof, report);
-    report.water_before = volume_integral(from, in.vof);
     report.water_after = volume_integral(to, out.vof);
   }
-  if (is_set(in.w)) {
-    report.divergence_before = max_divergence(from, in.w);
-    report.divergence_after = max_divergence(to, out.w);
-  }
+  if (is_set(out.w)) report.divergence_after = max_divergence(to, out.w);
   report.cpu_s = process_cpu_seconds() - start;
   return report;
 }

@@ -17,28 +17,21 @@
 
 #include <string>
 
-#include "core/transfer/local_rbf.hpp"
-#include "core/transfer/refine.hpp"
+#include "core/transfer/flow_fields.hpp"
+#include "core/transfer/mesh_pair.hpp"
+#include "core/transfer/prbf.hpp"
 
 namespace seaway::transfer {
-
-template <int Dim>
-struct FlowFields {
-  CellField<double, Dim> vof;                 ///< water volume fraction, 0..1
-  CellField<double, Dim> p;                   ///< pressure [Pa]
-  FaceField<double, Dim> u;                   ///< velocity of the fluid [m/s]
-  FaceField<double, Dim> w;                   ///< velocity of the mixture over full faces, solenoidal [m/s]
-  std::vector<CellField<double, Dim>> extra;  ///< any further cell fields (tke, epsilon)
-};
 
 enum class MapMethod {
   local_rbf,  ///< stencils of core/transfer/local_rbf.hpp
   linear,     ///< the baseline, core/transfer/linear.hpp
+  prbf,       ///< the published method, core/transfer/prbf_flow.hpp; for comparison
 };
 
 enum class VofMethod {
   split,    ///< cut the coarse interface planes; for a sharp interface
-  bounded,  ///< interpolate, children's mean = coarse value, 0..1; for a smeared one
+  bounded,  ///< interpolate within 0..1; for a smeared one. Conserves the water but for prbf, which clips
 };
 
 struct MapOptions {
@@ -48,6 +41,7 @@ struct MapOptions {
   int radius = 1;              ///< local_rbf: 1: 3^Dim points, 2: 5^Dim (smoother data; reaches across walls)
   double lebesgue_limit = 6;   ///< local_rbf: largest sum of |weights|; beyond it the degree is lowered
   bool limit_velocity = true;  ///< keep new velocities within the values of their stencil
+  PrbfOptions prbf;            ///< method prbf only
 };
 
 struct MapReport {
@@ -58,15 +52,17 @@ struct MapReport {
   double divergence_before = 0, divergence_after = 0;   ///< max |sum of face fluxes of w| / volume [1/s]
   std::int64_t kept_cells = 0, new_cells = 0;           ///< new: refined and coarsened
   std::int64_t refined_cells = 0, coarsened_cells = 0;
-  std::int64_t fall_backs = 0;                          ///< stencils that dropped to a simpler rule
+  std::int64_t fall_backs = 0;                          ///< stencils that dropped to a simpler rule (prbf:
+                                                        ///< subsets that were degenerate or indefinite)
   double lebesgue = 1;                                  ///< largest sum of |weights| of a cell stencil
   std::vector<char> origin;  ///< Origin of every cell, laid out as a cell field over the new forest;
                              ///< parents' cells are 0
 };
 
-/// Maps all fields that are set in `in` (a default-constructed field is skipped). `out` is overwritten with
-/// fields over `to`, restricted to the parents that kernels read. Throws Error(invalid_argument) for forests
-/// of different tanks or options out of range. `in` needs no restricted parents.
+/// Maps all fields that are set in `in` (a default-constructed field is skipped). `out`, another object, is
+/// overwritten with fields over `to`, restricted to the parents that kernels read. `in` needs no restricted
+/// parents. With prbf and evaluate_all no cell counts as kept. Throws Error(invalid_argument) for forests of
+/// different tanks or options out of range, Error(resource_exhausted) when prbf would need too much memory.
 template <int Dim>
 MapReport map_flow(const MapOptions& options, const Forest<Dim>& from, const Forest<Dim>& to,
                    const FlowFields<Dim>& in, FlowFields<Dim>& out);

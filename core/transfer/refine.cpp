@@ -187,7 +187,7 @@ RefineCount refine_cells(const Forest<Dim>& from, const Forest<Dim>& to, const M
 }
 
 template <int Dim>
-void unite_faces(const Forest<Dim>& to, const MeshPair<Dim>& pair, int axis,
+void unite_faces(const Forest<Dim>& to, const MeshPair<Dim>* pair, int axis,
                  FaceField<double, Dim>& out) {
   constexpr int n = BlockShape<Dim>::n;
   const IVec<Dim> strides = field::face_strides<Dim>(axis);
@@ -195,8 +195,8 @@ void unite_faces(const Forest<Dim>& to, const MeshPair<Dim>& pair, int axis,
   to.for_each_leaf([&](int b) {
     const int nb = to.block(b).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, 0))];
     if (nb < 0 || !to.block(nb).leaf) return;
-    const bool kept = pair.source(b).origin == Origin::kept;
-    const bool kept_below = pair.source(nb).origin == Origin::kept;
+    const bool kept = pair && pair->source(b).origin == Origin::kept;
+    const bool kept_below = pair && pair->source(nb).origin == Origin::kept;
     if (kept && kept_below) return;
     double* own = out.block(axis, b);
     double* below = out.block(axis, nb) + n * strides[axis];
@@ -226,7 +226,7 @@ RefineCount refine_faces(const Forest<Dim>& from, const Forest<Dim>& to, const M
       fall_backs += refine_block_faces<Dim>(place, axis, tables[static_cast<std::size_t>(axis)], limited,
                                             scratch, out.block(axis, b));
     });
-    unite_faces(to, pair, axis, out);
+    unite_faces(to, &pair, axis, out);
   }
   return {fall_backs, 1};
 }
@@ -238,7 +238,7 @@ RefineCount refine_faces(const Forest<Dim>& from, const Forest<Dim>& to, const M
   template RefineCount refine_faces<D>(const Forest<D>&, const Forest<D>&, const MeshPair<D>&,          \
                                        std::array<FaceTables<D>, D>&, bool,                             \
                                        const FaceField<double, D>&, FaceField<double, D>&);             \
-  template void unite_faces<D>(const Forest<D>&, const MeshPair<D>&, int, FaceField<double, D>&);
+  template void unite_faces<D>(const Forest<D>&, const MeshPair<D>*, int, FaceField<double, D>&);
 SEAWAY_INSTANTIATE(2)
 SEAWAY_INSTANTIATE(3)
 

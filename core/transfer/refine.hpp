@@ -62,8 +62,8 @@ RefineCount refine_faces(const Forest<Dim>& from, const Forest<Dim>& to, const M
                          const FaceField<double, Dim>& in, FaceField<double, Dim>& out);
 
 /// Makes the two copies of every face between leaves of one size equal: a kept block's value wins over a new
-/// one's, else the lower block's.
+/// one's, else the lower block's. Without `pair` all blocks count as new.
 template <int Dim>
-void unite_faces(const Forest<Dim>& to, const MeshPair<Dim>& pair, int axis, FaceField<double, Dim>& out);
+void unite_faces(const Forest<Dim>& to, const MeshPair<Dim>* pair, int axis, FaceField<double, Dim>& out);
 
 }  // namespace seaway::transfer

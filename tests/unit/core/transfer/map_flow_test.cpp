@@ -246,6 +246,59 @@ TEST(MapFlow, MapsAQuarterMillionCellsFast) {
   EXPECT_LT(report.cpu_s, 5.0);  // 0.1 s on one 2.5 GHz core; the rest is room for sanitizers
 }
 
+template <int Dim>
+void check_prbf(bool all) {
+  const auto grid = unit_tank<Dim>(2);
+  const Forest<Dim> from = boxed<Dim>(grid, 0, 0.4, 1), to = boxed<Dim>(grid, 0.6, 0.9, 1);
+  FlowFields<Dim> in, local, out;
+  map_flow<Dim>({}, from, from, make_flow(from), in);
+  MapOptions options;
+  options.method = MapMethod::prbf;
+  options.prbf.k = 8;
+  options.prbf.ordering = Ordering::morton;
+  options.prbf.evaluate_all = all;
+  const MapReport report = map_flow<Dim>(options, from, to, in, out);
+  map_flow<Dim>({}, from, to, in, local);
+  EXPECT_EQ(report.method, "prbf");
+  EXPECT_EQ(report.kept_cells > 0, !all);
+  EXPECT_NEAR(report.water_after / report.water_before, 1, 1e-13);
+  const MeshPair<Dim> pair(from, to);
+  double difference = 0, worst = 0, size = 0;
+  for (const int b : to.leaves()) {
+    if (!all && pair.source(b).origin == Origin::kept) {
+      EXPECT_TRUE(same_bits<Dim>(out.p.block(b), in.p.block(pair.source(b).block)));
+    }
+    for (int i = 0; i < BlockShape<Dim>::cells; ++i) {
+      difference += std::pow(out.p.block(b)[i] - local.p.block(b)[i], 2);
+      size += std::pow(local.p.block(b)[i], 2);
+      worst = std::max(worst, std::abs(out.extra[1].block(b)[i] - local.extra[1].block(b)[i]));
+    }
+  }
+  EXPECT_GT(difference, 0);                       // another method
+  EXPECT_LT(std::sqrt(difference / size), 0.08);  // of the same field (16 cells a wavelength in 3-D)
+  EXPECT_LT(worst, 0.05);                         // linear but for the limiter of the local one
+  // What crosses the tank's sides is not touched, nor is what crosses into kept cells.
+  double net = 0;
+  for (const int b : to.leaves())
+    for (int axis = 0; axis < Dim; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        if (to.block(b).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))] !=
+            mesh::no_block) continue;
+        IVec<Dim> lower = field::filled<Dim>(0), upper = field::cells_upper<Dim>();
+        lower[axis] = side * BlockShape<Dim>::n;
+        upper[axis] = lower[axis] + 1;
+        field::for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
+          const int o = field::offset<Dim>(i, field::face_strides<Dim>(axis));
+          net = std::max(net, std::abs(out.w.block(axis, b)[o] - local.w.block(axis, b)[o]));
+        });
+      }
+  EXPECT_LT(net, 1e-14);
+}
+TEST(MapFlow, PrbfReplacesAllValuesIn2D) { check_prbf<2>(true); }
+TEST(MapFlow, PrbfReplacesAllValuesIn3D) { check_prbf<3>(true); }
+TEST(MapFlow, PrbfAtNewPointsKeepsTheOthersIn2D) { check_prbf<2>(false); }
+TEST(MapFlow, PrbfAtNewPointsKeepsTheOthersIn3D) { check_prbf<3>(false); }
+
 TEST(MapFlow, RefusesOptionsOutOfRange) {
   const Forest<2> mesh = boxed<2>(unit_tank<2>(1), 0, 0, 0);
   FlowFields<2> out;
