@@ -1,4 +1,4 @@
-// The published stage-to-stage interpolation [zhou2023: equations 9 to 13], as a reference to compare with:
+// The published stage-to-stage interpolation [fastmultigrid2022, equations 9 to 13], as a reference to compare with:
 // the n points are dealt out to k subsets, subset l taking points l, l + k, l + 2k, ...; each subset's
 // radial-basis-function interpolant is evaluated on its own and the k results are averaged:
 //

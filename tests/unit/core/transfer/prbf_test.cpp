@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "core/base/constants.hpp"
 #include "core/base/error.hpp"
+#include "tests/unit/core/transfer/filter_law.hpp"
 
 namespace seaway::transfer {
 namespace {
@@ -32,7 +32,7 @@ Eigen::MatrixXd two_fields(const std::vector<Vec<Dim>>& x) {
   return f;
 }
 
-class PrbfKernel : public testing::TestWithParam<Kernel> {};
+class PrbfKernel : public ::testing::TestWithParam<Kernel> {};
 
 TEST_P(PrbfKernel, OneSubsetPassesThroughItsPoints) {
   const auto points = random_points<3>(300, 1);
@@ -56,58 +56,12 @@ TEST_P(PrbfKernel, TheAverageReproducesLinearFields) {
   EXPECT_LT((s - two_fields<2>(targets)).col(0).cwiseAbs().maxCoeff(), 1e-9);
 }
 INSTANTIATE_TEST_SUITE_P(All, PrbfKernel,
-                         testing::Values(Kernel::r, Kernel::r3, Kernel::thin_plate, Kernel::multiquadric,
+                         ::testing::Values(Kernel::r, Kernel::r3, Kernel::thin_plate, Kernel::multiquadric,
                                          Kernel::gaussian, Kernel::wendland_c2));
 
-/// The points of an edge^3 lattice so that every b^3-th of them is one shifted sublattice.
-std::vector<Vec3> lattice_by_sublattices(int edge, int b) {
-  std::vector<Vec3> x;
-  const int m = edge / b;
-  for (int kk = 0; kk < m; ++kk)
-    for (int jj = 0; jj < m; ++jj)
-      for (int ii = 0; ii < m; ++ii)
-        for (int k = 0; k < b; ++k)
-          for (int j = 0; j < b; ++j)
-            for (int i = 0; i < b; ++i) x.emplace_back(ii * b + i, jj * b + j, kk * b + k);
-  return x;
-}
-
-/// Amplitudes of plane waves after the average of 125 sublattices of a 40^3 lattice, at points in its middle.
-std::vector<double> amplitudes(Kernel kernel, const std::vector<Vec3>& waves) {
-  const std::vector<Vec3> points = lattice_by_sublattices(40, 5);
-  std::vector<Vec3> targets;
-  std::mt19937 rng(5);
-  std::uniform_real_distribution<double> middle(14, 25);
-  for (int t = 0; t < 256; ++t) targets.emplace_back(middle(rng), middle(rng), middle(rng));
-  const auto fields = [&](const std::vector<Vec3>& x) {
-    Eigen::MatrixXd f(static_cast<Eigen::Index>(x.size()), static_cast<Eigen::Index>(2 * waves.size()));
-    for (std::size_t i = 0; i < x.size(); ++i)
-      for (std::size_t w = 0; w < waves.size(); ++w) {
-        f(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(2 * w)) = std::cos(waves[w].dot(x[i]));
-        f(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(2 * w + 1)) = std::sin(waves[w].dot(x[i]));
-      }
-    return f;
-  };
-  PrbfOptions options;
-  options.k = 125;
-  options.kernel = kernel;
-  const Eigen::MatrixXd s = prbf_interpolate<3>(options, points, fields(points), targets);
-  const Eigen::MatrixXd exact = fields(targets);
-  std::vector<double> out;
-  for (Eigen::Index w = 0; w < exact.cols(); w += 2)
-    out.push_back(s.middleCols(w, 2).cwiseProduct(exact.middleCols(w, 2)).sum() /
-                  static_cast<double>(targets.size()));
-  return out;
-}
-
 void check_filter(Kernel kernel, int beta) {
-  const Vec3 direction = Vec3(1, 0.6, 0.35).normalized();
-  std::vector<Vec3> waves;
-  for (const double cells : {4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 40.0})
-    waves.push_back(direction * (2 * pi / cells));
-  const std::vector<double> found = amplitudes(kernel, waves);
-  for (std::size_t w = 0; w < waves.size(); ++w)
-    EXPECT_NEAR(found[w], prbf_filter(waves[w], 5, beta), 0.02) << 2 * pi / waves[w].norm() << " cells";
+  for (const auto& mode : testing::filter_modes(kernel, beta))
+    EXPECT_NEAR(mode.amplitude, mode.law, 0.02) << mode.cells << " cells a wavelength";
 }
 TEST(Prbf, CubicFollowsTheFilterLaw) { check_filter(Kernel::r3, 3); }
 TEST(Prbf, LinearKernelFollowsTheFilterLaw) { check_filter(Kernel::r, 1); }
