@@ -10,6 +10,24 @@ IVec<Dim> child_base(int child) {
   return base;
 }
 
+/// A coarse leaf's side takes the means that the parent of the finer blocks behind it holds.
+template <class T, int Dim>
+void copy_coarse_face(const mesh::CoarseFace& face, FaceField<T, Dim>& f) {
+  constexpr int n = BlockShape<Dim>::n;
+  const IVec<Dim> strides = face_strides<Dim>(face.axis);
+  T* leaf = f.block(face.axis, face.leaf);
+  const T* parent = f.block(face.axis, face.parent);
+  IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
+  const int to = face.side == 0 ? 0 : n;
+  const int shift = (n - 2 * to) * strides[face.axis];
+  lower[face.axis] = to;
+  upper[face.axis] = to + 1;
+  for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
+    const int o = offset<Dim>(i, strides);
+    leaf[o] = parent[o + shift];
+  });
+}
+
 }  // namespace
 
 template <class T, int Dim>
@@ -40,7 +58,14 @@ template <class T, int Dim>
 void restrict_faces(const Forest<Dim>& forest, FaceField<T, Dim>& f, int axis) {
   constexpr int half = BlockShape<Dim>::n / 2;
   const IVec<Dim> strides = face_strides<Dim>(axis);
+  // Level by level from the finest: a leaf takes its faces at jumps before its parent takes means of them.
+  auto next = forest.coarse_faces().rbegin();
+  const auto copy_faces_finer_than = [&](int level) {
+    for (; next != forest.coarse_faces().rend() && forest.block(next->leaf).level > level; ++next)
+      if (next->axis == axis) copy_coarse_face(*next, f);
+  };
   for (const int b : forest.interface_parents()) {
+    copy_faces_finer_than(forest.block(b).level);
     T* coarse = f.block(axis, b);
     for (int c = 0; c < BlockShape<Dim>::children; ++c) {
       const T* fine = f.block(axis, forest.block(b).child[static_cast<std::size_t>(c)]);
@@ -61,20 +86,7 @@ void restrict_faces(const Forest<Dim>& forest, FaceField<T, Dim>& f, int axis) {
       });
     }
   }
-  for (const mesh::CoarseFace& face : forest.coarse_faces()) {
-    if (face.axis != axis) continue;
-    T* leaf = f.block(axis, face.leaf);
-    const T* parent = f.block(axis, face.parent);
-    IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
-    const int to = face.side == 0 ? 0 : BlockShape<Dim>::n;
-    const int shift = (BlockShape<Dim>::n - 2 * to) * strides[axis];
-    lower[axis] = to;
-    upper[axis] = to + 1;
-    for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
-      const int o = offset<Dim>(i, strides);
-      leaf[o] = parent[o + shift];
-    });
-  }
+  copy_faces_finer_than(-1);
 }
 
 #define SEAWAY_INSTANTIATE(T, D)                                      \

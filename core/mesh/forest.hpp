@@ -59,6 +59,7 @@ class Forest {
   int n_levels() const { return static_cast<int>(level_begin_.size()) - 1; }
   /// Blocks of a level are [level_begin(l), level_begin(l + 1)), in Morton order; root blocks come first.
   int level_begin(int level) const { return level_begin_[static_cast<std::size_t>(level)]; }
+  /// Coarsest leaves first.
   const std::vector<CoarseFace>& coarse_faces() const { return coarse_faces_; }
   /// Parents whose values are read by a leaf next to them (or by its ghosts), finest level first.
   const std::vector<int>& interface_parents() const { return interface_parents_; }
