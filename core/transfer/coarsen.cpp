@@ -11,7 +11,8 @@ using field::offset;
 /// Means of the values below block `b`, on the cells (axis < 0) or the faces of `axis` of `b`.
 /// `leaf_data(b)` gives the values of a leaf.
 template <int Dim, class LeafData>
-void means_below(const Forest<Dim>& forest, int b, int axis, const LeafData& leaf_data, double* out) {
+void means_below(const Forest<Dim>& forest, int b, int axis, const LeafData& leaf_data,
+                 double* out) {
   constexpr int half = BlockShape<Dim>::n / 2;
   const IVec<Dim> strides = axis < 0 ? field::cell_strides<Dim>() : field::face_strides<Dim>(axis);
   const int size = axis < 0 ? BlockShape<Dim>::cells : BlockShape<Dim>::faces;
@@ -51,9 +52,11 @@ void copy_or_coarsen(const Forest<Dim>& from, const Forest<Dim>& to, const MeshP
                      const CellField<double, Dim>& in, CellField<double, Dim>& out) {
   to.for_each_leaf([&](int b) {
     const BlockSource& s = pair.source(b);
-    if (s.origin == Origin::kept) std::copy_n(in.block(s.block), BlockShape<Dim>::cells, out.block(b));
+    if (s.origin == Origin::kept)
+      std::copy_n(in.block(s.block), BlockShape<Dim>::cells, out.block(b));
     if (s.origin == Origin::coarsened)
-      means_below<Dim>(from, s.block, -1, [&](int leaf) { return in.block(leaf); }, out.block(b));
+      means_below<Dim>(
+          from, s.block, -1, [&](int leaf) { return in.block(leaf); }, out.block(b));
   });
 }
 
@@ -66,16 +69,17 @@ void copy_or_coarsen(const Forest<Dim>& from, const Forest<Dim>& to, const MeshP
       if (s.origin == Origin::kept)
         std::copy_n(in.block(axis, s.block), BlockShape<Dim>::faces, out.block(axis, b));
       if (s.origin == Origin::coarsened)
-        means_below<Dim>(from, s.block, axis, [&](int leaf) { return in.block(axis, leaf); },
-                         out.block(axis, b));
+        means_below<Dim>(
+            from, s.block, axis, [&](int leaf) { return in.block(axis, leaf); },
+            out.block(axis, b));
     }
   });
 }
 
-#define SEAWAY_INSTANTIATE(D)                                                                       \
-  template void copy_or_coarsen<D>(const Forest<D>&, const Forest<D>&, const MeshPair<D>&,           \
-                                   const CellField<double, D>&, CellField<double, D>&);              \
-  template void copy_or_coarsen<D>(const Forest<D>&, const Forest<D>&, const MeshPair<D>&,           \
+#define SEAWAY_INSTANTIATE(D)                                                              \
+  template void copy_or_coarsen<D>(const Forest<D>&, const Forest<D>&, const MeshPair<D>&, \
+                                   const CellField<double, D>&, CellField<double, D>&);    \
+  template void copy_or_coarsen<D>(const Forest<D>&, const Forest<D>&, const MeshPair<D>&, \
                                    const FaceField<double, D>&, FaceField<double, D>&);
 SEAWAY_INSTANTIATE(2)
 SEAWAY_INSTANTIATE(3)

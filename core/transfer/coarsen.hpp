@@ -1,6 +1,7 @@
-// New blocks that need no interpolation: kept leaves are copied bit by bit, leaves that replace finer ones
-// get means (cells: of the cells inside, faces: of the faces on them), which conserves volumes and fluxes.
-// Loops over leaves run on the new forest's threads; the number of threads changes no bit.
+// New blocks that need no interpolation: kept leaves are copied bit by bit, leaves that replace
+// finer ones get means (cells: of the cells inside, faces: of the faces on them), which conserves
+// volumes and fluxes. Loops over leaves run on the new forest's threads; the number of threads
+// changes no bit.
 #pragma once
 
 #include "core/field/field.hpp"

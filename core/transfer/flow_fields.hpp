@@ -13,10 +13,10 @@ using mesh::Forest;
 
 template <int Dim>
 struct FlowFields {
-  CellField<double, Dim> vof;                 ///< water volume fraction, 0..1
-  CellField<double, Dim> p;                   ///< pressure [Pa]
-  FaceField<double, Dim> u;                   ///< velocity of the fluid [m/s]
-  FaceField<double, Dim> w;                   ///< velocity of the mixture over full faces, solenoidal [m/s]
+  CellField<double, Dim> vof;  ///< water volume fraction, 0..1
+  CellField<double, Dim> p;    ///< pressure [Pa]
+  FaceField<double, Dim> u;    ///< velocity of the fluid [m/s]
+  FaceField<double, Dim> w;    ///< velocity of the mixture over full faces, solenoidal [m/s]
   std::vector<CellField<double, Dim>> extra;  ///< any further cell fields (tke, epsilon)
 };
 

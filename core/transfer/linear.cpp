@@ -18,7 +18,8 @@ WeightRule<Dim> linear_rule() {
       double sum = 0;
       for (std::size_t j = 0; j < points.size(); ++j) {
         double w = 1;
-        for (int a = 0; a < Dim; ++a) w *= std::max(0.0, 1 - std::abs(points[j][a] - targets[t][a]));
+        for (int a = 0; a < Dim; ++a)
+          w *= std::max(0.0, 1 - std::abs(points[j][a] - targets[t][a]));
         out.weight(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(j)) = w;
         sum += w;
       }

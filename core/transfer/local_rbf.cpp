@@ -10,13 +10,11 @@ namespace {
 
 double cube(double r) { return r * r * r; }
 
-void measure(PointWeights& w) {
-  w.lebesgue = w.weight.cwiseAbs().rowwise().sum().maxCoeff();
-}
+void measure(PointWeights& w) { w.lebesgue = w.weight.cwiseAbs().rowwise().sum().maxCoeff(); }
 
 template <int Dim>
-PointWeights rbf_of_degree(const std::vector<Vec<Dim>>& points, const std::vector<Vec<Dim>>& targets,
-                           int degree) {
+PointWeights rbf_of_degree(const std::vector<Vec<Dim>>& points,
+                           const std::vector<Vec<Dim>>& targets, int degree) {
   const auto n = static_cast<Eigen::Index>(points.size());
   const auto m = static_cast<Eigen::Index>(targets.size());
   const Eigen::Index q = monomials<Dim>(Vec<Dim>::Zero(), degree).size();
@@ -119,11 +117,12 @@ WeightRule<Dim> rbf_rule(const RbfOptions& options) {
   };
 }
 
-#define SEAWAY_INSTANTIATE(D)                                                                        \
-  template Eigen::RowVectorXd monomials<D>(const Vec<D>&, int);                                      \
-  template PointWeights least_squares_weights<D>(const std::vector<Vec<D>>&, const std::vector<Vec<D>>&); \
-  template PointWeights rbf_weights<D>(const std::vector<Vec<D>>&, const std::vector<Vec<D>>&,       \
-                                       const RbfOptions&);                                           \
+#define SEAWAY_INSTANTIATE(D)                                                                  \
+  template Eigen::RowVectorXd monomials<D>(const Vec<D>&, int);                                \
+  template PointWeights least_squares_weights<D>(const std::vector<Vec<D>>&,                   \
+                                                 const std::vector<Vec<D>>&);                  \
+  template PointWeights rbf_weights<D>(const std::vector<Vec<D>>&, const std::vector<Vec<D>>&, \
+                                       const RbfOptions&);                                     \
   template WeightRule<D> rbf_rule<D>(const RbfOptions&);
 SEAWAY_INSTANTIATE(2)
 SEAWAY_INSTANTIATE(3)

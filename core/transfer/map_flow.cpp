@@ -49,7 +49,8 @@ struct Tables {
 template <int Dim>
 class Step {
  public:
-  Step(const MapOptions& options, Tables<Dim>& tables, const Forest<Dim>& from, const Forest<Dim>& to)
+  Step(const MapOptions& options, Tables<Dim>& tables, const Forest<Dim>& from,
+       const Forest<Dim>& to)
       : options_(options), tables_(tables), from_(from), to_(to), pair_(from, to) {}
 
   FlowFields<Dim> map(const FlowFields<Dim>& in, RefineCount& count) {
@@ -78,19 +79,22 @@ class Step {
     split_vof(from_, to_, pair_, in.vof, out.vof);
   }
 
-  void map_cells(const CellField<double, Dim>& in, const CellRule& rule, const CellField<double, Dim>* vof,
-                 CellField<double, Dim>& out, RefineCount& count) {
+  void map_cells(const CellField<double, Dim>& in, const CellRule& rule,
+                 const CellField<double, Dim>* vof, CellField<double, Dim>& out,
+                 RefineCount& count) {
     if (!is_set(in)) return;
     out = CellField<double, Dim>(to_);
     copy_or_coarsen(from_, to_, pair_, in, out);
     count.add(refine_cells(from_, to_, pair_, *tables_.cells, rule, in, out, vof));
   }
 
-  void map_faces(const FaceField<double, Dim>& in, FaceField<double, Dim>& out, RefineCount& count) {
+  void map_faces(const FaceField<double, Dim>& in, FaceField<double, Dim>& out,
+                 RefineCount& count) {
     if (!is_set(in)) return;
     out = FaceField<double, Dim>(to_);
     copy_or_coarsen(from_, to_, pair_, in, out);
-    count.add(refine_faces<Dim>(from_, to_, pair_, tables_.faces, options_.limit_velocity, in, out));
+    count.add(
+        refine_faces<Dim>(from_, to_, pair_, tables_.faces, options_.limit_velocity, in, out));
   }
 
   const MapOptions& options_;
@@ -102,9 +106,12 @@ class Step {
 
 std::string name_of(MapMethod method) {
   switch (method) {
-    case MapMethod::local_rbf: return "local-rbf";
-    case MapMethod::linear: return "linear";
-    case MapMethod::prbf: return "prbf";
+    case MapMethod::local_rbf:
+      return "local-rbf";
+    case MapMethod::linear:
+      return "linear";
+    case MapMethod::prbf:
+      return "prbf";
   }
   return "";
 }
@@ -121,8 +128,9 @@ void describe_mesh(const MapOptions& options, const Forest<Dim>& to, const MeshP
     constexpr int cells = BlockShape<Dim>::cells;
     std::fill_n(report.origin.begin() + static_cast<std::ptrdiff_t>(b) * cells, cells,
                 static_cast<char>(origin));
-    (origin == Origin::kept ? report.kept_cells
-     : origin == Origin::refined ? report.refined_cells : report.coarsened_cells) += cells;
+    (origin == Origin::kept      ? report.kept_cells
+     : origin == Origin::refined ? report.refined_cells
+                                 : report.coarsened_cells) += cells;
   }
   report.new_cells = report.refined_cells + report.coarsened_cells;
 }
@@ -132,7 +140,8 @@ void describe_vof(const Forest<Dim>& to, const CellField<double, Dim>& vof, MapR
   report.vof_min = std::numeric_limits<double>::infinity();
   report.vof_max = -report.vof_min;
   for (const int b : to.leaves()) {
-    const auto [low, high] = std::minmax_element(vof.block(b), vof.block(b) + BlockShape<Dim>::cells);
+    const auto [low, high] =
+        std::minmax_element(vof.block(b), vof.block(b) + BlockShape<Dim>::cells);
     report.vof_min = std::min(report.vof_min, *low);
     report.vof_max = std::max(report.vof_max, *high);
   }
@@ -220,10 +229,10 @@ MapReport map_flow(const MapOptions& options, const Forest<Dim>& from, const For
   return report;
 }
 
-#define SEAWAY_INSTANTIATE(D)                                                                      \
-  template MapReport map_flow<D>(const MapOptions&, const Forest<D>&, const Forest<D>&,            \
-                                 const FlowFields<D>&, FlowFields<D>&);                            \
-  template double volume_integral<D>(const Forest<D>&, const CellField<double, D>&);               \
+#define SEAWAY_INSTANTIATE(D)                                                           \
+  template MapReport map_flow<D>(const MapOptions&, const Forest<D>&, const Forest<D>&, \
+                                 const FlowFields<D>&, FlowFields<D>&);                 \
+  template double volume_integral<D>(const Forest<D>&, const CellField<double, D>&);    \
   template double max_divergence<D>(const Forest<D>&, const FaceField<double, D>&);
 SEAWAY_INSTANTIATE(2)
 SEAWAY_INSTANTIATE(3)

@@ -37,8 +37,10 @@ MeshPair<Dim>::MeshPair(const Forest<Dim>& from, const Forest<Dim>& to) {
     BlockSource& s = source_[static_cast<std::size_t>(b)];
     const Block<Dim>& block = to.block(b);
     s.block = block_or_ancestor<Dim>(from, block.level, block.coord, s.depth);
-    if (s.depth > 0) s.origin = Origin::refined;
-    else s.origin = from.block(s.block).leaf ? Origin::kept : Origin::coarsened;
+    if (s.depth > 0)
+      s.origin = Origin::refined;
+    else
+      s.origin = from.block(s.block).leaf ? Origin::kept : Origin::coarsened;
     cells_[static_cast<std::size_t>(s.origin)] += BlockShape<Dim>::cells;
     max_depth_ = std::max(max_depth_, s.depth);
   }
@@ -52,7 +54,8 @@ std::vector<std::unique_ptr<Forest<Dim>>> forests_between(const Forest<Dim>& fro
   if (pair.max_depth() == 0) return steps;
   const int first = pair.cells(Origin::coarsened) > 0 ? 0 : 1;
   for (int k = first; k < pair.max_depth(); ++k) {
-    const mesh::RefineRule<Dim> rule = [&from, &to, k](const Vec<Dim>& lower, const Vec<Dim>&, int level) {
+    const mesh::RefineRule<Dim> rule = [&from, &to, k](const Vec<Dim>& lower, const Vec<Dim>&,
+                                                       int level) {
       const Vec<Dim> edge = to.cell_size(level) * BlockShape<Dim>::n;
       IVec<Dim> coord{};
       for (int a = 0; a < Dim; ++a)
@@ -63,14 +66,17 @@ std::vector<std::unique_ptr<Forest<Dim>>> forests_between(const Forest<Dim>& fro
       const int old = block_or_ancestor<Dim>(from, level, coord, depth);
       return !from.block(old).leaf || depth < k;
     };
-    steps.push_back(std::make_unique<Forest<Dim>>(to.grid(), to.n_levels() - 1, rule, to.threads()));
+    steps.push_back(
+        std::make_unique<Forest<Dim>>(to.grid(), to.n_levels() - 1, rule, to.threads()));
   }
   return steps;
 }
 
 template class MeshPair<2>;
 template class MeshPair<3>;
-template std::vector<std::unique_ptr<Forest<2>>> forests_between<2>(const Forest<2>&, const Forest<2>&);
-template std::vector<std::unique_ptr<Forest<3>>> forests_between<3>(const Forest<3>&, const Forest<3>&);
+template std::vector<std::unique_ptr<Forest<2>>> forests_between<2>(const Forest<2>&,
+                                                                    const Forest<2>&);
+template std::vector<std::unique_ptr<Forest<3>>> forests_between<3>(const Forest<3>&,
+                                                                    const Forest<3>&);
 
 }  // namespace seaway::transfer

@@ -1,6 +1,6 @@
-// How the leaves of one forest lie in another forest of the same tank: which blocks stay as they are, which
-// are parts of a coarser leaf, which gather finer leaves. Blocks are the unit: all cells of a block share
-// their origin.
+// How the leaves of one forest lie in another forest of the same tank: which blocks stay as they
+// are, which are parts of a coarser leaf, which gather finer leaves. Blocks are the unit: all cells
+// of a block share their origin.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +24,12 @@ enum class Origin : char {
 
 struct BlockSource {
   Origin origin = Origin::kept;
-  int block = 0;  ///< old block: the leaf itself, the ancestor leaf, or the parent at the same place
+  int block = 0;  ///< old block: the leaf itself, the leaf above it, or the parent at its place
   int depth = 0;  ///< levels that the new leaf lies below `block`; 0 unless refined
 };
 
-/// Sources of all leaves of `to`. Immutable. Throws Error(invalid_argument) unless both forests have the
-/// same tank and root blocks.
+/// Sources of all leaves of `to`. Immutable. Throws Error(invalid_argument) unless both forests
+/// have the same tank and root blocks.
 template <int Dim>
 class MeshPair {
  public:
@@ -46,12 +46,13 @@ class MeshPair {
   int max_depth_ = 0;
 };
 
-/// Forests between `from` and `to`, so that each step either only coarsens (the first) or refines every
-/// leaf by one level at most. Empty when `from` -> `to` is such a step itself.
+/// Forests between `from` and `to`, so that each step either only coarsens (the first) or refines
+/// every leaf by one level at most. Empty when `from` -> `to` is such a step itself.
 ///
-/// Step k has at every point the coarser of `to` and of `from` with k further levels. The coarser of two
-/// balanced trees is balanced, so p4est adds nothing.
+/// Step k has at every point the coarser of `to` and of `from` with k further levels. The coarser
+/// of two balanced trees is balanced, so p4est adds nothing.
 template <int Dim>
-std::vector<std::unique_ptr<Forest<Dim>>> forests_between(const Forest<Dim>& from, const Forest<Dim>& to);
+std::vector<std::unique_ptr<Forest<Dim>>> forests_between(const Forest<Dim>& from,
+                                                          const Forest<Dim>& to);
 
 }  // namespace seaway::transfer

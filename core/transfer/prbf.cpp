@@ -22,11 +22,14 @@ using Index = Eigen::Index;
 int least_tail(Kernel kernel) {
   switch (kernel) {
     case Kernel::r:
-    case Kernel::multiquadric: return 0;
+    case Kernel::multiquadric:
+      return 0;
     case Kernel::r3:
-    case Kernel::thin_plate: return 1;
+    case Kernel::thin_plate:
+      return 1;
     case Kernel::gaussian:
-    case Kernel::wendland_c2: return -1;
+    case Kernel::wendland_c2:
+      return -1;
   }
   return -1;
 }
@@ -37,18 +40,24 @@ double sign_of(Kernel kernel) {
 }
 
 bool has_shape(Kernel kernel) {
-  return kernel == Kernel::multiquadric || kernel == Kernel::gaussian || kernel == Kernel::wendland_c2;
+  return kernel == Kernel::multiquadric || kernel == Kernel::gaussian ||
+         kernel == Kernel::wendland_c2;
 }
 
 /// Calls f(phi) with phi a function of r^2.
 template <class F>
 void with_kernel(Kernel kernel, F&& f) {
   switch (kernel) {
-    case Kernel::r: return f([](double s) { return std::sqrt(s); });
-    case Kernel::r3: return f([](double s) { return s * std::sqrt(s); });
-    case Kernel::thin_plate: return f([](double s) { return s > 0 ? 0.5 * s * std::log(s) : 0.0; });
-    case Kernel::multiquadric: return f([](double s) { return std::sqrt(1 + s); });
-    case Kernel::gaussian: return f([](double s) { return std::exp(-s); });
+    case Kernel::r:
+      return f([](double s) { return std::sqrt(s); });
+    case Kernel::r3:
+      return f([](double s) { return s * std::sqrt(s); });
+    case Kernel::thin_plate:
+      return f([](double s) { return s > 0 ? 0.5 * s * std::log(s) : 0.0; });
+    case Kernel::multiquadric:
+      return f([](double s) { return std::sqrt(1 + s); });
+    case Kernel::gaussian:
+      return f([](double s) { return std::exp(-s); });
     case Kernel::wendland_c2:
       return f([](double s) {
         const double r = std::sqrt(s), left = std::max(0.0, 1 - r);
@@ -119,8 +128,9 @@ struct Interpolant {
   bool degenerate = false, indefinite = false;
 };
 
-/// Solves for the weights. With the QR factors of the tail matrix P the moment conditions P^T lambda = 0
-/// leave lambda = Q2 y, and Q2^T A Q2 is definite: Cholesky instead of an indefinite saddle system.
+/// Solves for the weights. With the QR factors of the tail matrix P the moment conditions P^T
+/// lambda = 0 leave lambda = Q2 y, and Q2^T A Q2 is definite: Cholesky instead of an indefinite
+/// saddle system.
 template <int Dim>
 void solve(const PrbfOptions& options, const Eigen::MatrixXd& f, Interpolant<Dim>& s) {
   const auto m = static_cast<Index>(s.centre.size());
@@ -128,8 +138,9 @@ void solve(const PrbfOptions& options, const Eigen::MatrixXd& f, Interpolant<Dim
   with_kernel(options.kernel, [&](auto phi) {
     for (Index j = 0; j < m; ++j)
       for (Index i = 0; i < m; ++i)
-        a(i, j) = phi((s.centre[static_cast<std::size_t>(i)] - s.centre[static_cast<std::size_t>(j)])
-                          .squaredNorm());
+        a(i, j) =
+            phi((s.centre[static_cast<std::size_t>(i)] - s.centre[static_cast<std::size_t>(j)])
+                    .squaredNorm());
   });
   const Index q = monomials<Dim>(Vec<Dim>::Zero(), options.tail_degree).size();
   Eigen::MatrixXd right = f, y;
@@ -241,16 +252,18 @@ void check(const PrbfOptions& o, std::int64_t n) {
   SEAWAY_CHECK(o.subsets >= 0 && o.subsets <= o.k,
                "prbf subsets is {}; it must lie between 0 (all) and k = {}", o.subsets, o.k);
   SEAWAY_CHECK(o.tail_degree >= least_tail(o.kernel) && o.tail_degree <= 2,
-               "prbf tail degree is {}; this kernel needs {} to 2", o.tail_degree, least_tail(o.kernel));
+               "prbf tail degree is {}; this kernel needs {} to 2", o.tail_degree,
+               least_tail(o.kernel));
   SEAWAY_CHECK(o.shape > 0, "prbf shape is {}; it must be positive", o.shape);
   const Index tail = monomials<Dim>(Vec<Dim>::Zero(), o.tail_degree).size();
-  SEAWAY_CHECK(n / o.k > tail, "prbf k = {} leaves subsets of {} points out of {}; use a smaller k", o.k,
-               n / o.k, n);
+  SEAWAY_CHECK(n / o.k > tail, "prbf k = {} leaves subsets of {} points out of {}; use a smaller k",
+               o.k, n / o.k, n);
   const double memory = prbf_memory(n, o);
   if (memory > o.memory_limit) {
     fail(ErrorCode::resource_exhausted,
          "prbf with k = {} over {} points needs about {:.2g} GB, more than the limit of {:.2g} GB; "
-         "raise k or use local-rbf", o.k, n, memory * 1e-9, o.memory_limit * 1e-9);
+         "raise k or use local-rbf",
+         o.k, n, memory * 1e-9, o.memory_limit * 1e-9);
   }
 }
 
@@ -263,16 +276,19 @@ double prbf_memory(std::int64_t n, const PrbfOptions& options) {
 
 template <int Dim>
 Eigen::MatrixXd prbf_interpolate(const PrbfOptions& options, const std::vector<Vec<Dim>>& points,
-                                 const Eigen::MatrixXd& values, const std::vector<Vec<Dim>>& targets,
-                                 int threads, PrbfReport* report) {
+                                 const Eigen::MatrixXd& values,
+                                 const std::vector<Vec<Dim>>& targets, int threads,
+                                 PrbfReport* report) {
   const auto n = static_cast<std::int64_t>(points.size());
   SEAWAY_CHECK(values.rows() == n, "prbf has {} values for {} points", values.rows(), n);
   check<Dim>(options, n);
   const std::vector<Index> order = order_of<Dim>(options, points);
   const int count = options.subsets > 0 ? options.subsets : options.k;
   const double memory = prbf_memory(n, options);
-  // Several subsets are factorised at a time as far as memory allows; they are added in their order.
-  const int together = std::clamp(static_cast<int>(options.memory_limit / memory), 1, std::max(threads, 1));
+  // Several subsets are factorised at a time as far as memory allows; they are added in their
+  // order.
+  const int together =
+      std::clamp(static_cast<int>(options.memory_limit / memory), 1, std::max(threads, 1));
 
   constexpr std::size_t tile = 32;
   const auto tiles = static_cast<int>((targets.size() + tile - 1) / tile);
@@ -286,7 +302,8 @@ Eigen::MatrixXd prbf_interpolate(const PrbfOptions& options, const std::vector<V
     std::vector<Interpolant<Dim>> batch(static_cast<std::size_t>(now));
     double start = process_cpu_seconds();
     mesh::parallel_for(now, threads, [&](int i) {
-      const auto l = static_cast<std::size_t>(static_cast<std::int64_t>(done + i) * options.k / count);
+      const auto l =
+          static_cast<std::size_t>(static_cast<std::int64_t>(done + i) * options.k / count);
       batch[static_cast<std::size_t>(i)] = make_interpolant<Dim>(options, points, values, order, l);
     });
     result.factor_cpu_s += process_cpu_seconds() - start;
@@ -323,10 +340,10 @@ double prbf_filter(const Vec3& xi, int b, int beta) {
 }
 
 template Eigen::MatrixXd prbf_interpolate<2>(const PrbfOptions&, const std::vector<Vec<2>>&,
-                                             const Eigen::MatrixXd&, const std::vector<Vec<2>>&, int,
-                                             PrbfReport*);
+                                             const Eigen::MatrixXd&, const std::vector<Vec<2>>&,
+                                             int, PrbfReport*);
 template Eigen::MatrixXd prbf_interpolate<3>(const PrbfOptions&, const std::vector<Vec<3>>&,
-                                             const Eigen::MatrixXd&, const std::vector<Vec<3>>&, int,
-                                             PrbfReport*);
+                                             const Eigen::MatrixXd&, const std::vector<Vec<3>>&,
+                                             int, PrbfReport*);
 
 }  // namespace seaway::transfer

@@ -21,10 +21,12 @@ constexpr double interface_limit = 1e-6;  // below: all air, above 1 - limit: al
 template <int Dim>
 struct Place {
   int source = 0;
-  IVec<Dim> base{};         ///< first cell of the source
-  IVec<Dim> first{}, last{};  ///< positions along each axis where the source's surroundings carry values
+  IVec<Dim> base{};  ///< first cell of the source
+  IVec<Dim> first{},
+      last{};  ///< positions along each axis where the source's surroundings carry values
 
-  Place(const Forest<Dim>& from, const Forest<Dim>& to, const BlockSource& s, int b, int face_axis) {
+  Place(const Forest<Dim>& from, const Forest<Dim>& to, const BlockSource& s, int b,
+        int face_axis) {
     SEAWAY_ASSERT(s.depth == 1);
     constexpr int n = BlockShape<Dim>::n;
     source = s.block;
@@ -104,8 +106,8 @@ bool near_interface(const Scratch<double, Dim>& vof, const IVec<Dim>& cell) {
 
 /// Fills the refined leaf's faces of `axis` from the gathered source.
 template <int Dim>
-std::int64_t refine_block_faces(const Place<Dim>& place, int axis, FaceTables<Dim>& tables, bool limited,
-                                const Scratch<double, Dim>& scratch, double* out) {
+std::int64_t refine_block_faces(const Place<Dim>& place, int axis, FaceTables<Dim>& tables,
+                                bool limited, const Scratch<double, Dim>& scratch, double* out) {
   constexpr int half = BlockShape<Dim>::n / 2;
   const IVec<Dim> strides = field::face_strides<Dim>(axis);
   std::int64_t fall_backs = 0;
@@ -142,8 +144,9 @@ std::int64_t refine_block_faces(const Place<Dim>& place, int axis, FaceTables<Di
 
 template <int Dim>
 RefineCount refine_cells(const Forest<Dim>& from, const Forest<Dim>& to, const MeshPair<Dim>& pair,
-                         StencilTable<Dim>& table, const CellRule& rule, const CellField<double, Dim>& in,
-                         CellField<double, Dim>& out, const CellField<double, Dim>* vof) {
+                         StencilTable<Dim>& table, const CellRule& rule,
+                         const CellField<double, Dim>& in, CellField<double, Dim>& out,
+                         const CellField<double, Dim>* vof) {
   constexpr int half = BlockShape<Dim>::n / 2;
   const IVec<Dim> strides = field::cell_strides<Dim>();
   std::atomic<std::int64_t> fall_backs{0};
@@ -170,8 +173,8 @@ RefineCount refine_cells(const Forest<Dim>& from, const Forest<Dim>& to, const M
       if (vof && limit == Limit::none && near_interface<Dim>(water, coarse)) limit = Limit::stencil;
       if (limit == Limit::mean) keep_mean(value, s.targets, *centre, nullptr);
       if (limit == Limit::stencil || limit == Limit::bounds) {
-        const Range range = limit == Limit::bounds ? Range{rule.lower, rule.upper}
-                                                   : stencil_range(s, centre);
+        const Range range =
+            limit == Limit::bounds ? Range{rule.lower, rule.upper} : stencil_range(s, centre);
         keep_mean(value, s.targets, *centre, &range);
       }
       for (int c = 0; c < BlockShape<Dim>::children; ++c) {
@@ -193,7 +196,8 @@ void unite_faces(const Forest<Dim>& to, const MeshPair<Dim>* pair, int axis,
   const IVec<Dim> strides = field::face_strides<Dim>(axis);
   // Each shared plane is handled by the block on its upper side alone.
   to.for_each_leaf([&](int b) {
-    const int nb = to.block(b).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, 0))];
+    const int nb =
+        to.block(b).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, 0))];
     if (nb < 0 || !to.block(nb).leaf) return;
     const bool kept = pair && pair->source(b).origin == Origin::kept;
     const bool kept_below = pair && pair->source(nb).origin == Origin::kept;
@@ -204,8 +208,10 @@ void unite_faces(const Forest<Dim>& to, const MeshPair<Dim>* pair, int axis,
     upper[axis] = 1;
     for_box<Dim>(field::filled<Dim>(0), upper, [&](const IVec<Dim>& i) {
       const int o = offset<Dim>(i, strides);
-      if (kept) below[o] = own[o];
-      else own[o] = below[o];
+      if (kept)
+        below[o] = own[o];
+      else
+        own[o] = below[o];
     });
   });
 }
@@ -223,21 +229,21 @@ RefineCount refine_faces(const Forest<Dim>& from, const Forest<Dim>& to, const M
       Scratch<double, Dim> scratch;
       // Values beyond the tank's sides are never read, so the kind of boundary does not matter.
       field::gather_faces(from, in, axis, place.source, 2, field::Boundaries<Dim>{}, scratch);
-      fall_backs += refine_block_faces<Dim>(place, axis, tables[static_cast<std::size_t>(axis)], limited,
-                                            scratch, out.block(axis, b));
+      fall_backs += refine_block_faces<Dim>(place, axis, tables[static_cast<std::size_t>(axis)],
+                                            limited, scratch, out.block(axis, b));
     });
     unite_faces(to, &pair, axis, out);
   }
   return {fall_backs, 1};
 }
 
-#define SEAWAY_INSTANTIATE(D)                                                                           \
-  template RefineCount refine_cells<D>(const Forest<D>&, const Forest<D>&, const MeshPair<D>&,          \
-                                       StencilTable<D>&, const CellRule&, const CellField<double, D>&,  \
-                                       CellField<double, D>&, const CellField<double, D>*);             \
-  template RefineCount refine_faces<D>(const Forest<D>&, const Forest<D>&, const MeshPair<D>&,          \
-                                       std::array<FaceTables<D>, D>&, bool,                             \
-                                       const FaceField<double, D>&, FaceField<double, D>&);             \
+#define SEAWAY_INSTANTIATE(D)                                                                    \
+  template RefineCount refine_cells<D>(                                                          \
+      const Forest<D>&, const Forest<D>&, const MeshPair<D>&, StencilTable<D>&, const CellRule&, \
+      const CellField<double, D>&, CellField<double, D>&, const CellField<double, D>*);          \
+  template RefineCount refine_faces<D>(const Forest<D>&, const Forest<D>&, const MeshPair<D>&,   \
+                                       std::array<FaceTables<D>, D>&, bool,                      \
+                                       const FaceField<double, D>&, FaceField<double, D>&);      \
   template void unite_faces<D>(const Forest<D>&, const MeshPair<D>*, int, FaceField<double, D>&);
 SEAWAY_INSTANTIATE(2)
 SEAWAY_INSTANTIATE(3)

@@ -65,9 +65,9 @@ void split_vof(const Forest<Dim>& from, const Forest<Dim>& to, const MeshPair<Di
   });
 }
 
-#define SEAWAY_INSTANTIATE(D)                                                                 \
-  template void split_cell<D>(double, const double*, double*);                                \
-  template void split_vof<D>(const Forest<D>&, const Forest<D>&, const MeshPair<D>&,          \
+#define SEAWAY_INSTANTIATE(D)                                                        \
+  template void split_cell<D>(double, const double*, double*);                       \
+  template void split_vof<D>(const Forest<D>&, const Forest<D>&, const MeshPair<D>&, \
                              const CellField<double, D>&, CellField<double, D>&);
 SEAWAY_INSTANTIATE(2)
 SEAWAY_INSTANTIATE(3)

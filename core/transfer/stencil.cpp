@@ -30,7 +30,9 @@ const Stencil& StencilTable<Dim>::at(const IVec<Dim>& i, const IVec<Dim>& first,
     const int below = std::max(0, first[a] - (i[a] + lower_[a]));
     const int above = std::max(0, i[a] + upper_[a] - last[a]);
     // A block is wider than a stencil: layers are missing on one side at most.
-    state = state * max_states + static_cast<std::size_t>(below > 0 ? below : above > 0 ? above + 3 : 0);
+    state = state * max_states + static_cast<std::size_t>(below > 0   ? below
+                                                          : above > 0 ? above + 3
+                                                                      : 0);
     lower[a] += below;
     upper[a] -= above;
   }
@@ -71,7 +73,8 @@ const Stencil& StencilTable<Dim>::build(std::size_t state, const IVec<Dim>& lowe
 
 namespace {
 
-/// Children with bit `axis` clear (axis < 0: all), a quarter spacing off the origin along the other axes.
+/// Children with bit `axis` clear (axis < 0: all), a quarter spacing off the origin along the other
+/// axes.
 template <int Dim>
 std::vector<Vec<Dim>> quarter_points(int axis, double along) {
   std::vector<Vec<Dim>> targets;
@@ -88,13 +91,15 @@ std::vector<Vec<Dim>> quarter_points(int axis, double along) {
 
 template <int Dim>
 std::unique_ptr<StencilTable<Dim>> child_cells(int radius, WeightRule<Dim> rule) {
-  return std::make_unique<StencilTable<Dim>>(field::filled<Dim>(-radius), field::filled<Dim>(radius),
-                                             quarter_points<Dim>(-1, 0), std::move(rule));
+  return std::make_unique<StencilTable<Dim>>(field::filled<Dim>(-radius),
+                                             field::filled<Dim>(radius), quarter_points<Dim>(-1, 0),
+                                             std::move(rule));
 }
 
 template <int Dim>
 std::unique_ptr<StencilTable<Dim>> faces_on(int axis, int radius, WeightRule<Dim> rule) {
-  return std::make_unique<StencilTable<Dim>>(field::filled<Dim>(-radius), field::filled<Dim>(radius),
+  return std::make_unique<StencilTable<Dim>>(field::filled<Dim>(-radius),
+                                             field::filled<Dim>(radius),
                                              quarter_points<Dim>(axis, 0), std::move(rule));
 }
 
@@ -106,10 +111,10 @@ std::unique_ptr<StencilTable<Dim>> faces_between(int axis, int radius, WeightRul
                                              quarter_points<Dim>(axis, 0.5), std::move(rule));
 }
 
-#define SEAWAY_INSTANTIATE(D)                                                                    \
-  template class StencilTable<D>;                                                                \
-  template std::unique_ptr<StencilTable<D>> child_cells<D>(int, WeightRule<D>);                  \
-  template std::unique_ptr<StencilTable<D>> faces_on<D>(int, int, WeightRule<D>);                \
+#define SEAWAY_INSTANTIATE(D)                                                     \
+  template class StencilTable<D>;                                                 \
+  template std::unique_ptr<StencilTable<D>> child_cells<D>(int, WeightRule<D>);   \
+  template std::unique_ptr<StencilTable<D>> faces_on<D>(int, int, WeightRule<D>); \
   template std::unique_ptr<StencilTable<D>> faces_between<D>(int, int, WeightRule<D>);
 SEAWAY_INSTANTIATE(2)
 SEAWAY_INSTANTIATE(3)

@@ -1,7 +1,7 @@
-// Interpolation stencils in index space. Around a coarse cell or face the neighbours lie on a lattice with
-// unit spacing along every axis, whatever the aspect ratio of the cells; so weights depend only on the kind
-// of target and on which layers of the stencil lie outside the tank, and are computed once for each of those
-// few combinations.
+// Interpolation stencils in index space. Around a coarse cell or face the neighbours lie on a
+// lattice with unit spacing along every axis, whatever the aspect ratio of the cells; so weights
+// depend only on the kind of target and on which layers of the stencil lie outside the tank, and
+// are computed once for each of those few combinations.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,8 @@ struct PointWeights {
   bool fell_back = false;  ///< a simpler rule than the one asked for
 };
 
-/// Weights with which values at `points` give values at `targets`; the origin is the coarse cell or face.
+/// Weights with which values at `points` give values at `targets`; the origin is the coarse cell or
+/// face.
 template <int Dim>
 using WeightRule = std::function<PointWeights(const std::vector<Vec<Dim>>& points,
                                               const std::vector<Vec<Dim>>& targets)>;
@@ -35,15 +36,16 @@ struct Stencil {
   bool one_sided = false;  ///< some layers are missing
 };
 
-/// All stencils of one kind of target. `lower` <= offset <= `upper` (at most 2 below, 3 above) is the full
-/// box of lattice points. Safe to use from several threads.
+/// All stencils of one kind of target. `lower` <= offset <= `upper` (at most 2 below, 3 above) is
+/// the full box of lattice points. Safe to use from several threads.
 template <int Dim>
 class StencilTable {
  public:
   StencilTable(const IVec<Dim>& lower, const IVec<Dim>& upper, std::vector<Vec<Dim>> targets,
                WeightRule<Dim> rule);
 
-  /// Stencil for lattice position `i` when, along axis a, only positions first[a] .. last[a] carry values.
+  /// Stencil for lattice position `i` when, along axis a, only positions first[a] .. last[a] carry
+  /// values.
   const Stencil& at(const IVec<Dim>& i, const IVec<Dim>& first, const IVec<Dim>& last);
 
  private:
@@ -54,11 +56,12 @@ class StencilTable {
   const std::vector<Vec<Dim>> targets_;
   const WeightRule<Dim> rule_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<Stencil>> stencil_;  // guarded by mutex_ but for the complete one, entry 0
+  std::vector<std::unique_ptr<Stencil>> stencil_;  // guarded by mutex_, but for entry 0: complete
 };
 
-/// The three kinds of target that a refinement needs. Children are counted as in Block::child; of a face's
-/// axis only bit 0 occurs. `radius` 1: 3 points along an axis (4 for faces_between), 2: 5 (6).
+/// The three kinds of target that a refinement needs. Children are counted as in Block::child; of a
+/// face's axis only bit 0 occurs. `radius` 1: 3 points along an axis (4 for faces_between),
+/// 2: 5 (6).
 template <int Dim>
 std::unique_ptr<StencilTable<Dim>> child_cells(int radius, WeightRule<Dim> rule);
 /// Parts of a coarse face, which lie on it.

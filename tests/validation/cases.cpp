@@ -4,8 +4,8 @@ namespace seaway::validation {
 
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases{
-      {"mapping", Suite::quick, "fields from one mesh to the next: kept, conserved, bounded, accurate",
-       run_mapping},
+      {"mapping", Suite::quick,
+       "fields from one mesh to the next: kept, conserved, bounded, accurate", run_mapping},
   };
   return cases;
 }

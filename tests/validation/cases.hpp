@@ -1,9 +1,9 @@
 // The list of validation and verification cases of seaway-validate.
 //
-// To add one: a folder tests/validation/<name>/ with case.cpp (its function, declared below), README.md
-// (what is compared with what, and where the reference comes from) and any reference data; its source in
-// CMakeLists.txt; a line in cases.cpp. Names of cases and quantities stay for good: figures are compared
-// over the years.
+// To add one: a folder tests/validation/<name>/ with case.cpp (its function, declared below),
+// README.md (what is compared with what, and where the reference comes from) and any reference
+// data; its source in CMakeLists.txt; a line in cases.cpp. Names of cases and quantities stay for
+// good: figures are compared over the years.
 #pragma once
 
 #include <string>

@@ -26,7 +26,8 @@ std::vector<const Case*> choose(const std::vector<std::string>& names, bool by_s
   std::vector<const Case*> chosen;
   for (const std::string& name : names) {
     const auto& all = validation::all_cases();
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == name; });
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == name; });
     if (found == all.end()) {
       std::fprintf(stderr, "no case named '%s'; seaway-validate --list names them\n", name.c_str());
       return {};
@@ -36,7 +37,8 @@ std::vector<const Case*> choose(const std::vector<std::string>& names, bool by_s
   if (names.empty() && by_suite)
     for (const Case& c : validation::all_cases())
       if (belongs(c, suite)) chosen.push_back(&c);
-  if (chosen.empty()) std::fprintf(stderr, "nothing to run; give case names or --suite quick|full|ships\n");
+  if (chosen.empty())
+    std::fprintf(stderr, "nothing to run; give case names or --suite quick|full|ships\n");
   return chosen;
 }
 
@@ -63,7 +65,8 @@ int run(const std::vector<const Case*>& cases, const validation::Context& contex
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Validation and verification cases of seaway: each compares quantities with references."};
+  CLI::App app{
+      "Validation and verification cases of seaway: each compares quantities with references."};
   std::vector<std::string> names;
   bool json = false, list = false;
   Suite suite = Suite::full;
@@ -74,7 +77,8 @@ int main(int argc, char** argv) {
   const std::map<std::string, Suite> suites{
       {"quick", Suite::quick}, {"full", Suite::full}, {"ships", Suite::ships}};
   auto* suite_option =
-      app.add_option("--suite", suite, "quick | full (all but the ships) | ships; with names: the size "
+      app.add_option("--suite", suite,
+                     "quick | full (all but the ships) | ships; with names: the size "
                      "in which they run, full unless given")
           ->transform(CLI::CheckedTransformer(suites).description("quick|full|ships"));
   app.add_option("--threads", context.threads, "threads; no result depends on them")

@@ -30,11 +30,14 @@ std::string column(std::optional<double> x) { return x ? fmt::format("{:.6g}", *
 }  // namespace
 
 Results::Results(std::string case_name, Format format, std::FILE* out)
-    : case_name_(std::move(case_name)), format_(format), out_(out), cpu_before_(process_cpu_seconds()) {}
+    : case_name_(std::move(case_name)),
+      format_(format),
+      out_(out),
+      cpu_before_(process_cpu_seconds()) {}
 
 void Results::print_table_header(std::FILE* out) {
-  std::fprintf(out, "%-18s %-24s %13s %-7s %12s %12s  %-4s %8s\n", "case", "quantity", "value", "unit",
-               "reference", "tolerance", "", "cpu_s");
+  std::fprintf(out, "%-18s %-24s %13s %-7s %12s %12s  %-4s %8s\n", "case", "quantity", "value",
+               "unit", "reference", "tolerance", "", "cpu_s");
 }
 
 void Results::add(Line line) {
@@ -77,7 +80,13 @@ void Results::report(const std::string& quantity, double value, const std::strin
 
 void Results::fail(const std::string& reason) {
   std::fprintf(stderr, "%s: %s\n", case_name_.c_str(), reason.c_str());
-  add({{}, "error", std::numeric_limits<double>::quiet_NaN(), "1", std::nullopt, std::nullopt, false});
+  add({{},
+       "error",
+       std::numeric_limits<double>::quiet_NaN(),
+       "1",
+       std::nullopt,
+       std::nullopt,
+       false});
 }
 
 }  // namespace seaway::validation

@@ -1,4 +1,4 @@
-// What a validation case reports: one line a quantity, printed at once as a table row or as a JSON object
+// What a validation case reports: one line a quantity, printed at once, in a table or as
 //   {"case","quantity","value","unit","reference","tolerance","pass","cpu_s"}
 #pragma once
 
@@ -13,9 +13,9 @@ struct Line {
   double value = 0;
   std::string unit;                 ///< SI; "1" for plain numbers
   std::optional<double> reference;  ///< the value wanted; least allowed value for expect_above
-  std::optional<double> tolerance;  ///< largest allowed distance to it; largest value for expect_below
+  std::optional<double> tolerance;  ///< largest distance to it; largest value for expect_below
   bool pass = true;
-  double cpu_s = 0;                 ///< CPU seconds (all threads) since the case's line before
+  double cpu_s = 0;  ///< CPU seconds (all threads) since the case's line before
 };
 
 enum class Format { table, json };
@@ -27,12 +27,14 @@ class Results {
   Results(std::string case_name, Format format, std::FILE* out = stdout);
 
   /// value <= limit
-  void expect_below(const std::string& quantity, double value, const std::string& unit, double limit);
+  void expect_below(const std::string& quantity, double value, const std::string& unit,
+                    double limit);
   /// value >= limit
-  void expect_above(const std::string& quantity, double value, const std::string& unit, double limit);
+  void expect_above(const std::string& quantity, double value, const std::string& unit,
+                    double limit);
   /// |value - reference| <= tolerance, in the value's unit
-  void expect_near(const std::string& quantity, double value, const std::string& unit, double reference,
-                   double tolerance);
+  void expect_near(const std::string& quantity, double value, const std::string& unit,
+                   double reference, double tolerance);
   /// A number that has no bar: always passes unless it is not a number.
   void report(const std::string& quantity, double value, const std::string& unit);
   /// The case could not be finished: a failed line "error", and the reason on stderr.

@@ -25,7 +25,8 @@ using transfer::MapReport;
 using transfer::MeshPair;
 using transfer::Origin;
 
-/// Share of the values of kept leaves, and of the faces between two of one size, that kept their bits.
+/// Share of the values of kept leaves, and of the faces between two of one size, that kept their
+/// bits.
 template <int Dim>
 double kept_identical(const Forest<Dim>& from, const Forest<Dim>& to, const FlowFields<Dim>& in,
                       const FlowFields<Dim>& out) {
@@ -46,7 +47,8 @@ double kept_identical(const Forest<Dim>& from, const Forest<Dim>& to, const Flow
     }
     for (int axis = 0; axis < Dim; ++axis) {
       const auto kept_beyond = [&](int side) {
-        const int nb = to.block(b).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
+        const int nb =
+            to.block(b).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
         if (nb == mesh::no_block) return true;
         return nb >= 0 && to.block(nb).leaf && pair.source(nb).origin == Origin::kept;
       };
@@ -63,7 +65,8 @@ double kept_identical(const Forest<Dim>& from, const Forest<Dim>& to, const Flow
   return same / all;
 }
 
-/// Rms error of a smooth field over new cells, 32 coarse cells a wavelength, sides of the tank included.
+/// Rms error of a smooth field over new cells, 32 coarse cells a wavelength, sides of the tank
+/// included.
 template <int Dim>
 double smooth_error(const MapOptions& options, int threads) {
   const auto grid = transfer::testing::unit_tank<Dim>(Dim == 2 ? 2 : 4);
@@ -82,7 +85,8 @@ double smooth_error(const MapOptions& options, int threads) {
     double s = 0;
     field::for_box<Dim>(field::filled<Dim>(0), field::cells_upper<Dim>(), [&](const IVec<Dim>& i) {
       s += std::pow(out.p.block(b)[offset<Dim>(i, field::cell_strides<Dim>())] -
-                    exact(to.block(b).cell_centre(i)), 2);
+                        exact(to.block(b).cell_centre(i)),
+                    2);
     });
     return s;
   });
@@ -102,7 +106,8 @@ struct Errors {
   double u = 0, p = 0, vof = 0;
 };
 
-/// Rms errors over refined blocks: u as part of its range, p of the wave's rho g H/2, vof over cut cells.
+/// Rms errors over refined blocks: u as part of its range, p of the wave's rho g H/2, vof over cut
+/// cells.
 Errors errors_at_new_points(const Forest<2>& from, const Forest<2>& to, const FlowFields<2>& exact,
                             const FlowFields<2>& found) {
   const MeshPair<2> pair(from, to);
@@ -179,10 +184,12 @@ double time_of_large_map(int threads) {
   const auto to = transfer::testing::boxed<2>(grid, 0, 1, 2, threads);
   FlowFields<2> in, out;
   const auto f = [](const Vec2& x) { return std::sin(x[0]) * std::cos(x[1]); };
-  transfer::testing::fill_water<2>(from, [](const Vec2& x) { return 4 + 0.1 * std::sin(x[0]); }, in.vof, 8);
+  transfer::testing::fill_water<2>(
+      from, [](const Vec2& x) { return 4 + 0.1 * std::sin(x[0]); }, in.vof, 8);
   transfer::testing::fill_cells<2>(from, f, in.p);
   in.extra = {in.p};
-  transfer::testing::fill_faces<2>(from, [&](const Vec2& x, int) { return f(x); }, in.u);
+  transfer::testing::fill_faces<2>(
+      from, [&](const Vec2& x, int) { return f(x); }, in.u);
   in.w = in.u;
   return map_flow<2>({}, from, to, in, out).cpu_s;
 }
@@ -197,12 +204,14 @@ void run_mapping(const Context& context, Results& results) {
   FlowFields<2> out;
   const MapReport report = map_flow<2>({}, from, to, in, out);
   results.expect_above("kept_identical", kept_identical<2>(from, to, in, out), "1", 1);
-  results.expect_below("volume_change", std::abs(report.water_after / report.water_before - 1), "1", 1e-12);
+  results.expect_below("volume_change", std::abs(report.water_after / report.water_before - 1), "1",
+                       1e-12);
   results.expect_above("vof_min", report.vof_min, "1", 0);
   results.expect_below("vof_max", report.vof_max, "1", 1);
-  results.expect_below("smooth_error_ratio",
-                       std::max(smooth_ratio<2>(2, 2, context.threads), smooth_ratio<3>(2, 2, context.threads)),
-                       "1", 0.1);
+  results.expect_below(
+      "smooth_error_ratio",
+      std::max(smooth_ratio<2>(2, 2, context.threads), smooth_ratio<3>(2, 2, context.threads)), "1",
+      0.1);
   results.report("smooth_error_ratio_default", smooth_ratio<2>(1, 1, context.threads), "1");
 
   double worst = 0;

@@ -19,13 +19,14 @@ const double omega = std::sqrt(gravity * wave_number);
 const double amplitude = 0.5 * wave_height;
 
 mesh::TankGrid<2> tank(double base) {
-  return mesh::make_tank_grid<2>(Vec2(0, -0.6 * wave_length), Vec2(wave_length, 0.4 * wave_length), base,
-                                 {true, false});
+  return mesh::make_tank_grid<2>(Vec2(0, -0.6 * wave_length), Vec2(wave_length, 0.4 * wave_length),
+                                 base, {true, false});
 }
 
 mesh::Forest<2> build(double base, const std::vector<mesh::RefinedBox<2>>& boxes, int threads) {
   const auto grid = tank(base);
-  return Forest<2>(grid, mesh::finest_level<2>(grid, boxes), mesh::refine_boxes<2>(grid, boxes), threads);
+  return Forest<2>(grid, mesh::finest_level<2>(grid, boxes), mesh::refine_boxes<2>(grid, boxes),
+                   threads);
 }
 
 /// Weight of the air at a height above the surface.
@@ -48,14 +49,18 @@ double stream_function(const Vec2& x) {
 
 mesh::Forest<2> coarse_stage(double base, int levels, int threads) {
   const double h = std::ldexp(base, -levels);
-  return build(base, {{Vec2(0, -0.07), Vec2(wave_length, 0.07), h},
-                      {Vec2(0.1, -0.9), Vec2(0.5, -0.5), 2 * h}}, threads);
+  return build(
+      base,
+      {{Vec2(0, -0.07), Vec2(wave_length, 0.07), h}, {Vec2(0.1, -0.9), Vec2(0.5, -0.5), 2 * h}},
+      threads);
 }
 
 mesh::Forest<2> fine_stage(double base, int levels, int threads) {
   const double h = std::ldexp(base, -levels);
-  return build(base, {{Vec2(0, -0.06), Vec2(wave_length, 0.06), 0.5 * h},
-                      {Vec2(1.3, -0.4), Vec2(1.8, 0.1), 0.5 * h}}, threads);
+  return build(base,
+               {{Vec2(0, -0.06), Vec2(wave_length, 0.06), 0.5 * h},
+                {Vec2(1.3, -0.4), Vec2(1.8, 0.1), 0.5 * h}},
+               threads);
 }
 
 double wave_elevation(double x) { return amplitude * std::cos(wave_number * x); }
@@ -84,13 +89,17 @@ double wave_pressure(const Vec2& x) {
 transfer::FlowFields<2> exact_flow(const mesh::Forest<2>& forest) {
   using namespace transfer::testing;
   transfer::FlowFields<2> f;
-  fill_water<2>(forest, [](const Vec2& x) { return wave_elevation(x[0]); }, f.vof);
-  fill_cells<2>(forest, [](const Vec2& x) { return wave_pressure(x); }, f.p);
+  fill_water<2>(
+      forest, [](const Vec2& x) { return wave_elevation(x[0]); }, f.vof);
+  fill_cells<2>(
+      forest, [](const Vec2& x) { return wave_pressure(x); }, f.p);
   f.extra.resize(1);
-  fill_cells<2>(forest, [](const Vec2& x) {
-    return std::exp(-(x[1] + 0.6 * wave_length) / (0.05 * wave_length));
-  }, f.extra[0]);
-  fill_faces<2>(forest, [](const Vec2& x, int axis) { return wave_velocity(x, axis); }, f.u);
+  fill_cells<2>(
+      forest,
+      [](const Vec2& x) { return std::exp(-(x[1] + 0.6 * wave_length) / (0.05 * wave_length)); },
+      f.extra[0]);
+  fill_faces<2>(
+      forest, [](const Vec2& x, int axis) { return wave_velocity(x, axis); }, f.u);
   f.w = transfer::FaceField<double, 2>(forest);
   for (const int b : forest.leaves()) {
     const auto& block = forest.block(b);
@@ -101,7 +110,8 @@ transfer::FlowFields<2> exact_flow(const mesh::Forest<2>& forest) {
         low[across] -= 0.5 * block.h[across];
         high[across] += 0.5 * block.h[across];
         const double change = (stream_function(high) - stream_function(low)) / block.h[across];
-        f.w.block(axis, b)[offset<2>(i, field::face_strides<2>(axis))] = axis == 0 ? change : -change;
+        f.w.block(axis, b)[offset<2>(i, field::face_strides<2>(axis))] =
+            axis == 0 ? change : -change;
       });
     }
   }

@@ -37,10 +37,12 @@ template <int Dim>
 void check_copies() {
   const auto forest = small_forest<Dim>(0.2, 1.2, 2);
   CellField<double, Dim> cells(forest);
-  fill_cells<Dim>(forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, cells);
+  fill_cells<Dim>(
+      forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, cells);
   FaceField<double, Dim> faces(forest);
   for (int axis = 0; axis < Dim; ++axis)
-    fill_faces<Dim>(forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, axis, faces);
+    fill_faces<Dim>(
+        forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, axis, faces);
   Scratch<double, Dim> s;
   for (const int b : forest.leaves()) {
     const Block<Dim>& block = forest.block(b);
@@ -74,8 +76,8 @@ void check_copies() {
 TEST(Gather, CopiesFromBlocksOfTheSameSizeIn2D) { check_copies<2>(); }
 TEST(Gather, CopiesFromBlocksOfTheSameSizeIn3D) { check_copies<3>(); }
 
-/// Linear fields come out exactly across level jumps, finer and coarser. Away from the tank's sides, where
-/// the coarse slopes are limited against mirrored values.
+/// Linear fields come out exactly across level jumps, finer and coarser. Away from the tank's
+/// sides, where the coarse slopes are limited against mirrored values.
 template <int Dim>
 void check_linear() {
   const auto forest = small_forest<Dim>(0.9, 1.6, 3);
@@ -117,7 +119,8 @@ TEST(Gather, LinearFieldsAreExactAcrossLevelJumpsIn3D) { check_linear<3>(); }
 TEST(Gather, GhostsFromCoarserBlocksAddNoExtremes) {
   const auto forest = small_forest<2>(0.9, 1.6, 2);
   CellField<double, 2> cells(forest);
-  fill_cells<2>(forest, [](const Vec2& x) { return x[0] + 0.3 * x[1] > 1.9 ? 1.0 : 0.0; }, cells);
+  fill_cells<2>(
+      forest, [](const Vec2& x) { return x[0] + 0.3 * x[1] > 1.9 ? 1.0 : 0.0; }, cells);
   restrict_cells(forest, cells);
   Scratch<double, 2> s;
   for (const int b : forest.leaves()) {
@@ -135,16 +138,20 @@ void check_walls(BoundaryKind kind) {
   const auto forest = small_forest<Dim>(0, 0, 0);
   constexpr int n = BlockShape<Dim>::n;
   CellField<double, Dim> cells(forest);
-  fill_cells<Dim>(forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, cells);
+  fill_cells<Dim>(
+      forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, cells);
   FaceField<double, Dim> faces(forest);
   for (int axis = 0; axis < Dim; ++axis)
-    fill_faces<Dim>(forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, axis, faces);
+    fill_faces<Dim>(
+        forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, axis, faces);
   Boundaries<Dim> boundaries;
   for (auto& sides : boundaries.kind) sides.fill(kind);
   Scratch<double, Dim> s;
   for (const int b : forest.leaves()) {
     const auto outside = [&](int a, int side) {
-      return forest.block(b).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))] == no_block;
+      return forest.block(b)
+                 .neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))] ==
+             no_block;
     };
     gather_cells(forest, cells, b, 2, s);
     for_scratch<Dim>(2, -1, [&](const IVec<Dim>& i) {
@@ -164,9 +171,12 @@ void check_walls(BoundaryKind kind) {
           const int below = a == axis ? -i[a] : -1 - i[a];
           const int above = a == axis ? 2 * n - i[a] : 2 * n - 1 - i[a];
           const int end = n + (a == axis);
-          if (i[a] < 0 && outside(a, 0)) m[a] = below;
-          else if (i[a] >= end && outside(a, 1)) m[a] = above;
-          else continue;
+          if (i[a] < 0 && outside(a, 0))
+            m[a] = below;
+          else if (i[a] >= end && outside(a, 1))
+            m[a] = above;
+          else
+            continue;
           if (a == axis) {
             across = true;
             wall[a] = i[a] < 0 ? 0 : n;
@@ -205,7 +215,8 @@ void check_periodic() {
   for (int axis = 0; axis < Dim; ++axis) fill_faces<Dim>(forest, f, axis, faces);
   for (const int b : forest.leaves()) {
     gather_cells(forest, cells, b, 2, s);
-    for_scratch<Dim>(2, -1, [&](const IVec<Dim>& i) { EXPECT_EQ(s(i), f(position<Dim>(forest, b, i, -1))); });
+    for_scratch<Dim>(
+        2, -1, [&](const IVec<Dim>& i) { EXPECT_EQ(s(i), f(position<Dim>(forest, b, i, -1))); });
     for (int axis = 0; axis < Dim; ++axis) {
       gather_faces(forest, faces, axis, b, 2, Boundaries<Dim>{}, s);
       for_scratch<Dim>(2, axis, [&](const IVec<Dim>& i) {

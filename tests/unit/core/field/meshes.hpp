@@ -11,7 +11,8 @@ namespace seaway::field::testing {
 
 /// 3 root blocks along each axis, edges of 1; `box` is refined to `level`.
 template <int Dim>
-Forest<Dim> small_forest(double low, double high, int level, bool periodic = false, int threads = 1) {
+Forest<Dim> small_forest(double low, double high, int level, bool periodic = false,
+                         int threads = 1) {
   mesh::TankGrid<Dim> grid;
   grid.lower.setZero();
   grid.upper.setConstant(3);
@@ -33,11 +34,12 @@ void fill_cells(const Forest<Dim>& forest, const std::function<double(const Vec<
 }
 
 template <int Dim>
-void fill_faces(const Forest<Dim>& forest, const std::function<double(const Vec<Dim>&)>& f, int axis,
-                FaceField<double, Dim>& out) {
+void fill_faces(const Forest<Dim>& forest, const std::function<double(const Vec<Dim>&)>& f,
+                int axis, FaceField<double, Dim>& out) {
   for (const int b : forest.leaves())
     for_box<Dim>(filled<Dim>(0), faces_upper<Dim>(axis), [&](const IVec<Dim>& i) {
-      out.block(axis, b)[offset<Dim>(i, face_strides<Dim>(axis))] = f(forest.block(b).face_centre(i, axis));
+      out.block(axis, b)[offset<Dim>(i, face_strides<Dim>(axis))] =
+          f(forest.block(b).face_centre(i, axis));
     });
 }
 

@@ -23,7 +23,8 @@ template <int Dim>
 void check_means() {
   const auto forest = small_forest<Dim>(0.2, 1.2, 3);
   CellField<double, Dim> f(forest);
-  fill_cells<Dim>(forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, f);
+  fill_cells<Dim>(
+      forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, f);
   const CellField<double, Dim> before = f;
   restrict_cells(forest, f);
   for (const int b : forest.leaves())
@@ -35,7 +36,8 @@ void check_means() {
     double children = 0;
     for (const int c : parent.child)
       children += sum_of<Dim>(f.block(c), BlockShape<Dim>::cells) * forest.block(c).cell_volume();
-    EXPECT_NEAR(sum_of<Dim>(f.block(b), BlockShape<Dim>::cells) * parent.cell_volume(), children, 1e-13);
+    EXPECT_NEAR(sum_of<Dim>(f.block(b), BlockShape<Dim>::cells) * parent.cell_volume(), children,
+                1e-13);
     // And each cell is the mean of the cells in it.
     for_box<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& i) {
       double mean = 0;
@@ -47,9 +49,11 @@ void check_means() {
           child |= (fine[a] >= BlockShape<Dim>::n) << a;
           fine[a] %= BlockShape<Dim>::n;
         }
-        mean += f.block(parent.child[static_cast<std::size_t>(child)])[offset<Dim>(fine, cell_strides<Dim>())];
+        mean += f.block(
+            parent.child[static_cast<std::size_t>(child)])[offset<Dim>(fine, cell_strides<Dim>())];
       }
-      EXPECT_NEAR(f.block(b)[offset<Dim>(i, cell_strides<Dim>())], mean / BlockShape<Dim>::children, 1e-15);
+      EXPECT_NEAR(f.block(b)[offset<Dim>(i, cell_strides<Dim>())], mean / BlockShape<Dim>::children,
+                  1e-15);
     });
   }
 }
@@ -62,14 +66,16 @@ void check_fluxes(bool periodic) {
   const auto forest = small_forest<Dim>(0.2, 1.2, 3, periodic);
   FaceField<double, Dim> f(forest);
   for (int axis = 0; axis < Dim; ++axis)
-    fill_faces<Dim>(forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, axis, f);
+    fill_faces<Dim>(
+        forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, axis, f);
   restrict_faces(forest, f);
   constexpr int n = BlockShape<Dim>::n;
   for (const mesh::CoarseFace& face : forest.coarse_faces()) {
     const auto strides = face_strides<Dim>(face.axis);
     IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
-    lower[face.axis] = face.side * n;
-    upper[face.axis] = lower[face.axis] + 1;
+    const auto along = static_cast<std::size_t>(face.axis);
+    lower[along] = face.side * n;
+    upper[along] = lower[along] + 1;
     for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
       double mean = 0;
       for (int s = 0; s < BlockShape<Dim>::children; ++s) {
@@ -104,7 +110,8 @@ TEST(Restrict, TwiceIsOnce) {
   const auto forest = small_forest<2>(0.2, 1.2, 3);
   FaceField<double, 2> f(forest);
   for (int axis = 0; axis < 2; ++axis)
-    fill_faces<2>(forest, [](const Vec2& x) { return noise<2>(x); }, axis, f);
+    fill_faces<2>(
+        forest, [](const Vec2& x) { return noise<2>(x); }, axis, f);
   restrict_faces(forest, f);
   const FaceField<double, 2> once = f;
   restrict_faces(forest, f);
@@ -118,7 +125,8 @@ void check_threads() {
   for (const int threads : {1, 2, 4}) {
     const auto forest = small_forest<Dim>(0.2, 1.2, 3, false, threads);
     CellField<double, Dim> f(forest), g(forest);
-    fill_cells<Dim>(forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, f);
+    fill_cells<Dim>(
+        forest, [](const Vec<Dim>& x) { return noise<Dim>(x); }, f);
     restrict_cells(forest, f);
     forest.for_each_leaf([&](int b) {
       Scratch<double, Dim> s;

@@ -24,7 +24,8 @@ Forest<Dim> thorny(bool periodic, int max_level = 4, int threads = 1) {
   std::uniform_real_distribution<double> uniform(0, 1);
   std::vector<Vec<Dim>> points(5);
   for (auto& p : points)
-    for (int a = 0; a < Dim; ++a) p[a] = grid.lower[a] + uniform(rng) * (grid.upper[a] - grid.lower[a]);
+    for (int a = 0; a < Dim; ++a)
+      p[a] = grid.lower[a] + uniform(rng) * (grid.upper[a] - grid.lower[a]);
   points[0] = grid.lower;  // a corner of the tank: across it periodic neighbours meet
   const RefineRule<Dim> rule = [=](const Vec<Dim>& lower, const Vec<Dim>& upper, int) {
     for (const auto& p : points)
@@ -175,13 +176,14 @@ void check_find_leaf() {
   EXPECT_EQ(f.find_leaf(f.grid().lower - Vec<Dim>::Ones()),
             f.find_leaf(f.grid().lower + Vec<Dim>::Constant(1e-9)));
   const int last = f.find_leaf(f.grid().upper);
-  EXPECT_NEAR((f.block(last).origin + BlockShape<Dim>::n * f.block(last).h - f.grid().upper).norm(), 0,
-              1e-12);
+  EXPECT_NEAR((f.block(last).origin + BlockShape<Dim>::n * f.block(last).h - f.grid().upper).norm(),
+              0, 1e-12);
 }
 TEST(Forest, FindsTheLeafOfAPointIn2D) { check_find_leaf<2>(); }
 TEST(Forest, FindsTheLeafOfAPointIn3D) { check_find_leaf<3>(); }
 
-/// The area of coarse faces is that of the fine faces on them, and each fine face at a jump has one.
+/// The area of coarse faces is that of the fine faces on them, and each fine face at a jump has
+/// one.
 template <int Dim>
 void check_coarse_faces(bool periodic) {
   const Forest<Dim> f = thorny<Dim>(periodic);
@@ -194,7 +196,8 @@ void check_coarse_faces(bool periodic) {
     EXPECT_TRUE(f.block(face.leaf).leaf);
     EXPECT_FALSE(f.block(face.parent).leaf);
     EXPECT_EQ(f.block(face.leaf).level, f.block(face.parent).level);
-    EXPECT_EQ(f.block(face.leaf).neighbour[static_cast<std::size_t>(face_neighbour<Dim>(face.axis, face.side))],
+    EXPECT_EQ(f.block(face.leaf)
+                  .neighbour[static_cast<std::size_t>(face_neighbour<Dim>(face.axis, face.side))],
               face.parent);
     EXPECT_TRUE(listed.insert({face.leaf, face.axis, face.side}).second) << "listed twice";
     coarse_area += area(f.block(face.leaf), face.axis);
@@ -205,7 +208,8 @@ void check_coarse_faces(bool periodic) {
     EXPECT_EQ(f.touches_coarser(b), touches);
     for (int axis = 0; axis < Dim; ++axis)
       for (int side = 0; side < 2; ++side)
-        if (f.block(b).neighbour[static_cast<std::size_t>(face_neighbour<Dim>(axis, side))] == coarser_neighbour)
+        if (f.block(b).neighbour[static_cast<std::size_t>(face_neighbour<Dim>(axis, side))] ==
+            coarser_neighbour)
           fine_area += area(f.block(b), axis);
   }
   EXPECT_GT(coarse_area, 0);
@@ -240,7 +244,8 @@ TEST(Forest, ListsTheParentsThatLeavesReadIn3D) { check_interface_parents<3>(); 
 TEST(Forest, RefusesTooManyCells) {
   TankGrid<2> grid{Vec2(0, 0), Vec2(1, 1), {2, 2}, {false, false}};
   try {
-    const Forest<2> f(grid, 6, [](const Vec2&, const Vec2&, int) { return true; }, 1, 100'000);
+    const Forest<2> f(
+        grid, 6, [](const Vec2&, const Vec2&, int) { return true; }, 1, 100'000);
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ErrorCode::resource_exhausted);

@@ -34,9 +34,11 @@ TEST(Parallel, MaximumIsAtLeastItsFloorAndShowsNaN) {
 
 TEST(Parallel, TheFirstExceptionReachesTheCaller) {
   for (const int threads : {1, 4})
-    EXPECT_THROW(parallel_for(100, threads, [](int i) {
-      if (i == 50) throw std::runtime_error("fifty");
-    }), std::runtime_error);
+    EXPECT_THROW(parallel_for(100, threads,
+                              [](int i) {
+                                if (i == 50) throw std::runtime_error("fifty");
+                              }),
+                 std::runtime_error);
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ TEST(TankGrid, WholeMultiplesGiveExactlyTheWantedCell) {
 
 TEST(TankGrid, CellsAreAtMostTwelvePercentTooLarge) {
   for (double length = 0.3; length < 20; length *= 1.07) {
-    const auto grid = make_tank_grid<3>(Vec3(0, 0, 0), Vec3(length, 1, 2), 0.05, {false, false, false});
+    const auto grid =
+        make_tank_grid<3>(Vec3(0, 0, 0), Vec3(length, 1, 2), 0.05, {false, false, false});
     EXPECT_LE(length / (grid.root_blocks[0] * BlockShape<3>::n), 0.05 * 1.12 + 1e-12);
   }
 }

@@ -1,4 +1,5 @@
-// What the partitioned interpolation leaves of plane waves, measured on a lattice and by the filter law.
+// What the partitioned interpolation leaves of plane waves, measured on a lattice and by the filter
+// law.
 #pragma once
 
 #include <cmath>
@@ -23,7 +24,8 @@ inline std::vector<Vec3> lattice_by_sublattices(int edge, int b) {
   return x;
 }
 
-/// Amplitudes of plane waves after the average of 125 sublattices of a 40^3 lattice, at points in its middle.
+/// Amplitudes of plane waves after the average of 125 sublattices of a 40^3 lattice, at points in
+/// its middle.
 inline std::vector<double> amplitudes(Kernel kernel, const std::vector<Vec3>& waves) {
   const std::vector<Vec3> points = lattice_by_sublattices(40, 5);
   std::vector<Vec3> targets;
@@ -31,11 +33,14 @@ inline std::vector<double> amplitudes(Kernel kernel, const std::vector<Vec3>& wa
   std::uniform_real_distribution<double> middle(14, 25);
   for (int t = 0; t < 256; ++t) targets.emplace_back(middle(rng), middle(rng), middle(rng));
   const auto fields = [&](const std::vector<Vec3>& x) {
-    Eigen::MatrixXd f(static_cast<Eigen::Index>(x.size()), static_cast<Eigen::Index>(2 * waves.size()));
+    Eigen::MatrixXd f(static_cast<Eigen::Index>(x.size()),
+                      static_cast<Eigen::Index>(2 * waves.size()));
     for (std::size_t i = 0; i < x.size(); ++i)
       for (std::size_t w = 0; w < waves.size(); ++w) {
-        f(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(2 * w)) = std::cos(waves[w].dot(x[i]));
-        f(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(2 * w + 1)) = std::sin(waves[w].dot(x[i]));
+        f(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(2 * w)) =
+            std::cos(waves[w].dot(x[i]));
+        f(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(2 * w + 1)) =
+            std::sin(waves[w].dot(x[i]));
       }
     return f;
   };

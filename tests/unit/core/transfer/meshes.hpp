@@ -29,7 +29,8 @@ mesh::TankGrid<Dim> unit_tank(int blocks, bool periodic = false) {
 
 /// Refined to `level` inside the box [low, high]^Dim (scaled by the tank's size).
 template <int Dim>
-Forest<Dim> boxed(const mesh::TankGrid<Dim>& grid, double low, double high, int level, int threads = 1) {
+Forest<Dim> boxed(const mesh::TankGrid<Dim>& grid, double low, double high, int level,
+                  int threads = 1) {
   const Vec<Dim> size = grid.upper - grid.lower;
   const mesh::RefineRule<Dim> rule = [=](const Vec<Dim>& lower, const Vec<Dim>& upper, int at) {
     return at < level && ((lower - grid.lower).array() < high * size.array()).all() &&
@@ -55,16 +56,17 @@ void fill_faces(const Forest<Dim>& forest, const std::function<double(const Vec<
   out = FaceField<double, Dim>(forest);
   for (const int b : forest.leaves())
     for (int axis = 0; axis < Dim; ++axis)
-      field::for_box<Dim>(field::filled<Dim>(0), field::faces_upper<Dim>(axis), [&](const IVec<Dim>& i) {
-        out.block(axis, b)[field::offset<Dim>(i, field::face_strides<Dim>(axis))] =
-            f(forest.block(b).face_centre(i, axis), axis);
-      });
+      field::for_box<Dim>(
+          field::filled<Dim>(0), field::faces_upper<Dim>(axis), [&](const IVec<Dim>& i) {
+            out.block(axis, b)[field::offset<Dim>(i, field::face_strides<Dim>(axis))] =
+                f(forest.block(b).face_centre(i, axis), axis);
+          });
 }
 
 /// Fraction of each cell below z = surface(x), by a fine midpoint rule across the other axes.
 template <int Dim>
-void fill_water(const Forest<Dim>& forest, const Function<Dim>& surface, CellField<double, Dim>& out,
-                int samples = Dim == 2 ? 64 : 8) {
+void fill_water(const Forest<Dim>& forest, const Function<Dim>& surface,
+                CellField<double, Dim>& out, int samples = Dim == 2 ? 64 : 8) {
   out = CellField<double, Dim>(forest);
   constexpr int up = Dim - 1;
   IVec<Dim> columns = field::filled<Dim>(samples);

@@ -56,8 +56,9 @@ TEST_P(PrbfKernel, TheAverageReproducesLinearFields) {
   EXPECT_LT((s - two_fields<2>(targets)).col(0).cwiseAbs().maxCoeff(), 1e-9);
 }
 INSTANTIATE_TEST_SUITE_P(All, PrbfKernel,
-                         ::testing::Values(Kernel::r, Kernel::r3, Kernel::thin_plate, Kernel::multiquadric,
-                                         Kernel::gaussian, Kernel::wendland_c2));
+                         ::testing::Values(Kernel::r, Kernel::r3, Kernel::thin_plate,
+                                           Kernel::multiquadric, Kernel::gaussian,
+                                           Kernel::wendland_c2));
 
 void check_filter(Kernel kernel, int beta) {
   for (const auto& mode : testing::filter_modes(kernel, beta))
@@ -73,7 +74,8 @@ TEST(Prbf, ThreadsChangeNoBit) {
   options.ordering = Ordering::shuffle;
   const Eigen::MatrixXd f = two_fields<2>(points);
   const Eigen::MatrixXd one = prbf_interpolate<2>(options, points, f, targets, 1);
-  for (const int threads : {2, 4}) EXPECT_EQ(one, prbf_interpolate<2>(options, points, f, targets, threads));
+  for (const int threads : {2, 4})
+    EXPECT_EQ(one, prbf_interpolate<2>(options, points, f, targets, threads));
 }
 
 TEST(Prbf, AnyOrderingKeepsResolvedFields) {
@@ -95,7 +97,8 @@ TEST(Prbf, PointsOnALineAreSolvedOnIt) {  // a stride that picks one column of a
   PrbfOptions options;
   options.k = 8;
   PrbfReport report;
-  const Eigen::MatrixXd s = prbf_interpolate<2>(options, points, two_fields<2>(points), points, 1, &report);
+  const Eigen::MatrixXd s =
+      prbf_interpolate<2>(options, points, two_fields<2>(points), points, 1, &report);
   EXPECT_EQ(report.degenerate, 8);
   EXPECT_TRUE(s.allFinite());
 }

@@ -42,7 +42,8 @@ void check_random_cells() {
 TEST(SplitVof, ChildrenAreBoundedAndShareTheWaterIn2D) { check_random_cells<2>(); }
 TEST(SplitVof, ChildrenAreBoundedAndShareTheWaterIn3D) { check_random_cells<3>(); }
 
-/// Rms error of the children of mixed cells on a wave of steepness 0.06, 32 coarse cells a wavelength.
+/// Rms error of the children of mixed cells on a wave of steepness 0.06, 32 coarse cells a
+/// wavelength.
 template <int Dim>
 std::pair<double, double> wave_error() {
   const auto grid = unit_tank<Dim>(Dim == 2 ? 2 : 4);

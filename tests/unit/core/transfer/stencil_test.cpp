@@ -11,7 +11,8 @@ using mesh::BlockShape;
 /// Largest error of a polynomial of `degree` at the targets of the stencil at `i`.
 template <int Dim>
 double polynomial_error(StencilTable<Dim>& table, const std::vector<Vec<Dim>>& targets,
-                        const IVec<Dim>& i, const IVec<Dim>& first, const IVec<Dim>& last, int degree) {
+                        const IVec<Dim>& i, const IVec<Dim>& first, const IVec<Dim>& last,
+                        int degree) {
   const Eigen::RowVectorXd powers = monomials<Dim>(Vec<Dim>::Zero(), degree);
   Eigen::VectorXd c(powers.size());
   for (Eigen::Index q = 0; q < c.size(); ++q) c[q] = 0.7 + 0.31 * static_cast<double>(q % 5);
@@ -24,14 +25,14 @@ double polynomial_error(StencilTable<Dim>& table, const std::vector<Vec<Dim>>& t
   field::Scratch<double, Dim> scratch;
   field::for_box<Dim>(field::filled<Dim>(-2), field::filled<Dim>(BlockShape<Dim>::n + 3),
                       [&](const IVec<Dim>& at) {
-    Vec<Dim> x;
-    bool inside = true;
-    for (int a = 0; a < Dim; ++a) {
-      x[a] = at[a] - i[a];
-      inside = inside && at[a] >= first[a] && at[a] <= last[a];
-    }
-    scratch(at) = inside ? f(x) : 1e30;  // must not be read
-  });
+                        Vec<Dim> x;
+                        bool inside = true;
+                        for (int a = 0; a < Dim; ++a) {
+                          x[a] = at[a] - i[a];
+                          inside = inside && at[a] >= first[a] && at[a] <= last[a];
+                        }
+                        scratch(at) = inside ? f(x) : 1e30;  // must not be read
+                      });
   const Stencil& s = table.at(i, first, last);
   double error = 0;
   for (int t = 0; t < s.targets; ++t) {
@@ -67,8 +68,9 @@ void check_reproduction(int degree, int radius) {
   const auto corner = field::filled<Dim>(0);
   const bool fell_back = table->at(corner, corner, to).fell_back;
   EXPECT_EQ(fell_back, degree == 2 && radius == 1);
-  EXPECT_LT(polynomial_error<Dim>(*table, children<Dim>(), corner, corner, to, fell_back ? 1 : degree),
-            1e-12);
+  EXPECT_LT(
+      polynomial_error<Dim>(*table, children<Dim>(), corner, corner, to, fell_back ? 1 : degree),
+      1e-12);
 }
 TEST(LocalRbf, ReproducesPolynomialsOfItsTailIn2D) {
   for (const int degree : {1, 2})
