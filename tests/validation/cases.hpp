@@ -1,0 +1,39 @@
+// The list of validation and verification cases of seaway-validate.
+//
+// To add one: a folder tests/validation/<name>/ with case.cpp (its function, declared below), README.md
+// (what is compared with what, and where the reference comes from) and any reference data; its source in
+// CMakeLists.txt; a line in cases.cpp. Names of cases and quantities stay for good: figures are compared
+// over the years.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/validation/results.hpp"
+
+namespace seaway::validation {
+
+enum class Suite {
+  quick,  ///< seconds; part of every check
+  full,   ///< minutes; run on request
+  ships,  ///< hours; only by name or by this suite
+};
+
+struct Context {
+  int threads = 1;
+  Suite suite = Suite::full;  ///< a case may do less in the quick suite; it says so in its README
+  bool quick() const { return suite == Suite::quick; }
+};
+
+struct Case {
+  std::string name;
+  Suite suite;       ///< smallest suite that runs it; `full` runs the quick cases as well
+  std::string what;  ///< one line for --list
+  void (*run)(const Context&, Results&);
+};
+
+const std::vector<Case>& all_cases();
+
+void run_mapping(const Context& context, Results& results);
+
+}  // namespace seaway::validation
