@@ -317,7 +317,10 @@ void write_message(const Message& m, int indent, std::string first, std::string&
         write_message(r.GetRepeatedMessage(m, f, i), indent + 4, margin + "  - ", out);
     } else {
       out += lead + " [";
-      for (int i = 0; i < r.FieldSize(m, f); ++i) out += (i > 0 ? ", " : "") + scalar(m, *f, i);
+      for (int i = 0; i < r.FieldSize(m, f); ++i) {
+        if (i > 0) out += ", ";
+        out += scalar(m, *f, i);
+      }
       out += "]\n";
     }
   }
