@@ -110,7 +110,7 @@ void plot_section(const Section& section, const v1::Job& job, const std::string&
   char time[32];
   std::snprintf(time, sizeof time, "%.2f", section.time_s);
   s << "set terminal pngcairo size 1200,800 font ',12'\nset output '" << gnuplot_text(absolute(path)) << "'\nset title '"
-    << gnuplot_text(job.title()) << "\\n' . 't = " << time << " s' noenhanced\nset size ratio -1\nset xrange [" << y[0] << ":"
+    << gnuplot_text(job.title()) << ", t = " << time << " s' noenhanced\nset size ratio -1\nset xrange [" << y[0] << ":"
     << y[1] << "]\nset yrange [" << z[0] << ":" << z[1]
     << "]\nset xlabel 'y [m], to port'\nset ylabel 'z [m]'\nset grid lc rgb '#eeeeee'\nset key off\nset style fill solid 1.0 noborder\nplot ";
   std::map<std::string, std::string> data;
