@@ -146,6 +146,7 @@ void Simulation<Dim>::initialise() {
 template <int Dim>
 std::pair<double, double> Simulation<Dim>::adopt(flow::FlowState<Dim>&& state, const BodyState<Dim>& body,
                                                  double time, std::int64_t step, double dt,
+                                                 const std::map<int, double>& reservoirs,
                                                  const std::vector<char>* free_cells) {
   state_ = std::move(state);
   body_ = body;
@@ -159,20 +160,14 @@ std::pair<double, double> Simulation<Dim>::adopt(flow::FlowState<Dim>&& state, c
   field::restrict_faces<double, Dim>(*forest_, state_.u);
   field::restrict_faces<double, Dim>(*forest_, state_.w);
   extend_vof_and_settle(dt_, true);
-  extend_velocity();
-  clock_.charge("mapping");
-  // Make w solenoidal where cells are new: a projection without forces whose potential is not the pressure.
-  const CellField<double, Dim> pressure = state_.p;
-  std::fill(state_.p.data().begin(), state_.p.data().end(), 0.0);
-  const FaceField<double, Dim> kept = state_.w;
-  projection_.prepare(state_, mask_.get(), free_cells);
-  projection_.mixture_velocity(state_, mask_.get(), body_.twist);
+  book_.reservoirs() = reservoirs;
   const double before = projection_.divergence(state_, dt_);
-  motion::Twist<Dim> twist = body_.twist;
-  flow::ProjectionOptions options{1e-9, 400};
-  (void)projection_.project(state_, mask_.get(), twist, motion::DofMatrix<Dim>::Zero(), dt_, options);
-  const double after = projection_.divergence(state_, dt_);
-  state_.p = pressure;
+  double after = before;
+  if (free_cells) {
+    projection_.prepare(state_, mask_.get(), free_cells);
+    (void)projection_.repair(state_, mask_.get(), body_.twist, *free_cells, dt_, {1e-10, 400});
+    after = projection_.divergence(state_, dt_);
+  }
   extend_velocity();
   clock_.charge("mapping");
   return {before, after};

@@ -90,7 +90,8 @@ class Simulation {
   /// Start from fields mapped from another mesh at `time`; `free_cells` are those whose inner faces may be
   /// changed to make w solenoidal. Returns dt |div w| before and after.
   std::pair<double, double> adopt(flow::FlowState<Dim>&& state, const BodyState<Dim>& body, double time,
-                                  std::int64_t step, double dt, const std::vector<char>* free_cells);
+                                  std::int64_t step, double dt, const std::map<int, double>& reservoirs,
+                                  const std::vector<char>* free_cells);
   /// From a checkpoint: all state as saved; continues to the bit.
   void restore(flow::FlowState<Dim>&& state, const BodyState<Dim>& body, double time, std::int64_t step,
                double dt, double next_dt, double exchanged, const std::map<int, double>& reservoirs);
