@@ -213,6 +213,20 @@ void gather(const Forest<Dim>& forest, int b, int layers, int face_axis, Source&
       out(i) = face_axis < 0 ? interpolate_cell<T, Dim>(patch, i)
                              : interpolate_face<T, Dim>(patch, i, face_axis);
     });
+    // The outer face planes may belong to a block of this level beside the coarse one: then its values count,
+    // so that both blocks that share a face see the same surroundings.
+    if (face_axis < 0 || off[face_axis] != 0) continue;
+    for (int side = -1; side <= 1; side += 2) {
+      constexpr std::array<int, 3> power{1, 3, 9};
+      const int beside = block.neighbour[static_cast<std::size_t>(entry + side * power[static_cast<std::size_t>(face_axis)])];
+      if (beside < 0) continue;
+      IVec<Dim> plane_lower = lower, plane_upper = upper, shift = off;
+      plane_lower[face_axis] = side < 0 ? 0 : n;
+      plane_upper[face_axis] = plane_lower[face_axis] + 1;
+      shift[face_axis] = side;
+      for (int a = 0; a < Dim; ++a) shift[a] *= n;
+      copy_region<T, Dim>(source(beside), strides, shift, plane_lower, plane_upper, out.data);
+    }
   }
   if (boundary) mirror<T, Dim>(block, layers, face_axis, boundaries, out.data);
 }

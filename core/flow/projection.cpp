@@ -218,19 +218,21 @@ void Projection<Dim>::right_side(const FlowState<Dim>& state, double dt, CellFie
 }
 
 template <int Dim>
-void Projection<Dim>::correct(FlowState<Dim>& state, double dt) const {
+void Projection<Dim>::correct(FlowState<Dim>& state, const CellField<double, Dim>& pressure, double dt,
+                              bool mixture_too) const {
   forest_.for_each_leaf([&](int b) {
     constexpr int n = BlockShape<Dim>::n;
     const auto& block = forest_.block(b);
     Scratch<double, Dim> p;
-    linear::load_cells<double, Dim>(state.p.block(b), p);
+    linear::load_cells<double, Dim>(pressure.block(b), p);
     linear::load_ghosts<double, Dim>(forest_, b, linear::CoarseGhost::value,
-                                     [&](int nb) { return state.p.block(nb); }, p);
+                                     [&](int nb) { return pressure.block(nb); }, p);
     for (int axis = 0; axis < Dim; ++axis) {
       const int S = ScratchShape<Dim>::stride(axis);
       const float* c = operator_.coefficients().block(axis, b);
       const float* a = aperture_.block(axis, b);
       double* u = state.u.block(axis, b);
+      double* w = state.w.block(axis, b);
       const double factor = dt * block.h[axis] / block.cell_volume();
       const int count = n + (axis == 0);
       for_rows<Dim>(filled<Dim>(0), faces_upper<Dim>(axis), [&](const IVec<Dim>& row) {
@@ -239,7 +241,9 @@ void Projection<Dim>::correct(FlowState<Dim>& state, double dt) const {
         for (int i = 0; i < count; ++i) {
           const double aperture = static_cast<double>(a[o + i]);
           const double inverse = aperture > 0 ? 1 / aperture : 0.0;
-          u[o + i] -= factor * inverse * static_cast<double>(c[o + i]) * (pr[i] - pr[i - S]);
+          const double flux = factor * static_cast<double>(c[o + i]) * (pr[i] - pr[i - S]);
+          u[o + i] -= inverse * flux;
+          if (mixture_too) w[o + i] -= flux;
         }
       });
     }
@@ -309,10 +313,44 @@ linear::SolveReport Projection<Dim>::project(FlowState<Dim>& state, const HullMa
   const auto report = cg_.solve(operator_, multigrid_, rhs_, state.p, options.tolerance / (dt * dt),
                                 options.max_iterations);
   if (!moves) std::swap(held, rigid);
-  correct(state, dt);
+  correct(state, state.p, dt, false);
   if (moves) twist += dt * (inverse_mass * rigid.gather(state.p.data()));
   field::restrict_cells<double, Dim>(forest_, state.p);
   mixture_velocity(state, mask, twist);
+  return report;
+}
+
+template <int Dim>
+linear::SolveReport Projection<Dim>::repair(FlowState<Dim>& state, const HullMask<Dim>* mask,
+                                            const motion::Twist<Dim>& twist, const std::vector<char>& free_cells,
+                                            double dt, const ProjectionOptions& options) {
+  if (mask) {
+    const auto& window = mask->window();
+    std::vector<double> w;
+    for (int axis = 0; axis < Dim; ++axis) {
+      window.load_faces(state.w, axis, w);
+      const auto& aperture = mask->half().aperture[static_cast<std::size_t>(axis)];
+      IVec<Dim> lower = filled<Dim>(0);
+      lower[axis] = 1;
+      for_box<Dim>(lower, window.n(), [&](const IVec<Dim>& i) {
+        const auto at = static_cast<std::size_t>(window.at(i));
+        IVec<Dim> below = i;
+        --below[axis];
+        if (aperture[at] > 0 || !free_cells[static_cast<std::size_t>(window.global_cell(i))] ||
+            !free_cells[static_cast<std::size_t>(window.global_cell(below))])
+          return;
+        w[at] = motion::velocity_at<Dim>(twist, mask->half().pose, window.face_centre(i, axis))[axis];
+      });
+      window.store_faces(w, axis, state.w);
+    }
+  }
+  operator_.rigid() = {};
+  right_side(state, dt, rhs_);
+  CellField<double, Dim> potential(forest_);
+  const auto report = cg_.solve(operator_, multigrid_, rhs_, potential, options.tolerance / (dt * dt),
+                                options.max_iterations);
+  correct(state, potential, dt, true);
+  field::restrict_faces<double, Dim>(forest_, state.w);
   return report;
 }
 

@@ -38,6 +38,11 @@ class Projection {
                               const motion::DofMatrix<Dim>& inverse_mass, double dt,
                               const ProjectionOptions& options);
 
+  /// After prepare with free_cells: makes state.w solenoidal by changing only what may change, u along with
+  /// it; the pressure is left alone. On closed faces of free cells w becomes the hull's own velocity first.
+  linear::SolveReport repair(FlowState<Dim>& state, const HullMask<Dim>* mask, const motion::Twist<Dim>& twist,
+                             const std::vector<char>& free_cells, double dt, const ProjectionOptions& options);
+
   /// w of (u, twist) on all faces, parents restricted.
   void mixture_velocity(FlowState<Dim>& state, const HullMask<Dim>* mask, const motion::Twist<Dim>& twist) const;
   /// Largest dt |div w|.
@@ -45,8 +50,7 @@ class Projection {
 
  private:
   void right_side(const FlowState<Dim>& state, double dt, CellField<double, Dim>& b) const;
-  void correct(FlowState<Dim>& state, double dt) const;
-  /// 1 / (rho_f d_f) between two neighbouring cells with these volume fractions.
+  void correct(FlowState<Dim>& state, const CellField<double, Dim>& p, double dt, bool mixture_too) const;
   const Forest<Dim>& forest_;
   FluidProperties fluids_;
   Boundaries<Dim> boundaries_;

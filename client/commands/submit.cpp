@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// submit and validate: a case file with the files it names -> the service.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "client/commands/commands.hpp"
+#include "proto/json.hpp"
+#include "proto/report_text.hpp"
+#include "proto/yaml.hpp"
+
+namespace seaway::client {
+namespace {
+
+struct Options {
+  std::string file, request_id;
+  bool watch = false, validate_only = false;
+};
+
+struct CaseInput {
+  v1::Case message;
+  yaml::SourceMap lines;
+  google::protobuf::RepeatedPtrField<v1::CaseFile> files;
+};
+
+CaseInput read_case(const std::string& path) {
+  CaseInput in;
+  in.lines = yaml::read_file(path, in.message);
+  const std::string& table = in.message.hull().offsets_section().file();
+  if (table.empty()) return in;
+  const auto place = std::filesystem::path(path).parent_path() / table;
+  std::ifstream stream(place, std::ios::binary);
+  if (!stream) {
+    const std::string field = "hull.offsets_section.file";
+    throw yaml::InputError(path, {{in.lines.find(field), field, place.string() + " cannot be opened", "the name is relative to the case file"}});
+  }
+  v1::CaseFile& file = *in.files.Add();
+  file.set_name(table);
+  file.mutable_content()->assign(std::istreambuf_iterator<char>(stream), {});
+  return in;
+}
+
+/// What the service says about fields, with the lines of the file.
+[[noreturn]] void rethrow_with_lines(const RpcError& error, const CaseInput& in, const std::string& file) {
+  if (error.violations().empty()) throw error;
+  std::vector<yaml::Problem> problems;
+  for (const auto& [field, text] : error.violations()) problems.push_back({in.lines.find(field), field, text, ""});
+  throw yaml::InputError(file, std::move(problems));
+}
+
+void print_report(const v1::CaseReport& report, const CaseInput& in) {
+  std::fputs(report_text::diagnostics(report.diagnostics(), in.lines).c_str(), stderr);
+  if (report.has_hydrostatics())
+    std::printf("hydrostatics\n%s\n", report_text::hydrostatics(report.hydrostatics(), in.message.dimension()).c_str());
+  if (report.stages_size() > 0) std::printf("estimated cost\n%s\n", report_text::cost(report.stages()).c_str());
+}
+
+int validate(JobClient& client, const Options& o, bool json) {
+  const CaseInput in = read_case(o.file);
+  v1::ValidateCaseRequest request;
+  *request.mutable_case_() = in.message;
+  *request.mutable_files() = in.files;
+  try {
+    const v1::CaseReport report = client.validate(request);
+    if (json)
+      std::printf("%s\n", to_json(report).c_str());
+    else
+      print_report(report, in);
+    return report.ok() ? exit_ok : exit_usage;
+  } catch (const RpcError& error) {
+    rethrow_with_lines(error, in, o.file);
+  }
+}
+
+int submit(JobClient& client, const Options& o, bool json) {
+  const CaseInput in = read_case(o.file);
+  v1::CreateJobRequest request;
+  *request.mutable_case_() = in.message;
+  *request.mutable_files() = in.files;
+  request.set_request_id(o.request_id.empty() ? new_request_id() : o.request_id);
+  v1::CreateJobResponse response;
+  try {
+    response = client.create(request);
+  } catch (const RpcError& error) {
+    rethrow_with_lines(error, in, o.file);
+  }
+  if (json) {
+    std::printf("%s\n", to_json(response).c_str());
+  } else {
+    print_report(response.report(), in);
+    std::printf("%s  %s  %s\n", response.job().name().c_str(), state_text(response.job().state()).c_str(),
+                response.job().title().c_str());
+  }
+  std::fflush(stdout);
+  return o.watch ? follow(client, response.job().name(), 0, json, 0) : static_cast<int>(exit_ok);
+}
+
+}  // namespace
+
+void add_submit(CLI::App& app, Common& common) {
+  auto o = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand("submit", "queue a case");
+  sub->add_option("CASE", o->file, "case file (YAML)")->required();
+  sub->add_flag("-w,--watch", o->watch, "follow it to its end");
+  sub->add_option("--request-id", o->request_id, "UUID; the same one again gives the same job");
+  sub->callback([o, &common] { common.run = [o, &common](JobClient& c) { return submit(c, *o, common.json); }; });
+  CLI::App* check = app.add_subcommand("validate", "diagnostics, hydrostatics and cost of a case; queues nothing");
+  check->add_option("CASE", o->file, "case file (YAML)")->required();
+  check->callback([o, &common] { common.run = [o, &common](JobClient& c) { return validate(c, *o, common.json); }; });
+}
+
+}  // namespace seaway::client

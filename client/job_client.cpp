@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "client/job_client.hpp"
+
+#include <grpcpp/client_context.h>
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <random>
+#include <thread>
+
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
+
+namespace seaway::client {
+namespace {
+
+ExitCode exit_code(grpc::StatusCode code) {
+  switch (code) {
+    case grpc::StatusCode::INVALID_ARGUMENT:
+    case grpc::StatusCode::OUT_OF_RANGE:
+    case grpc::StatusCode::FAILED_PRECONDITION: return exit_usage;
+    case grpc::StatusCode::NOT_FOUND: return exit_not_found;
+    case grpc::StatusCode::UNAVAILABLE:
+    case grpc::StatusCode::DEADLINE_EXCEEDED: return exit_unreachable;
+    default: return exit_failed;
+  }
+}
+
+std::string text_of(const grpc::Status& status) {
+  if (status.error_code() == grpc::StatusCode::UNAVAILABLE && status.error_details().empty())
+    return "the server cannot be reached (" + status.error_message() + "); is seawayd running there? See --server";
+  return status.error_message();
+}
+
+void check(const grpc::Status& status) {
+  if (!status.ok()) throw RpcError(status);
+}
+
+void set_deadline(grpc::ClientContext& context, int seconds) {
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(seconds));
+}
+
+template <class Response, class Call>
+Response unary(Call call, int seconds = 10) {
+  grpc::ClientContext context;
+  set_deadline(context, seconds);
+  Response response;
+  check(call(&context, &response));
+  return response;
+}
+
+}  // namespace
+
+RpcError::RpcError(const grpc::Status& status)
+    : ClientError(exit_code(status.error_code()), text_of(status)), status_(status.error_code()) {
+  google::rpc::Status details;
+  if (!details.ParseFromString(status.error_details())) return;
+  google::rpc::BadRequest bad;
+  for (const auto& any : details.details()) {
+    if (!any.UnpackTo(&bad)) continue;
+    for (const auto& v : bad.field_violations()) violations_.emplace_back(v.field(), v.description());
+  }
+}
+
+JobClient::JobClient(const std::string& server) {
+  grpc::ChannelArguments arguments;
+  // As the server expects it: pings every 30 s find a vanished peer.
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2'000);
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
+  arguments.SetMaxReceiveMessageSize(64 << 20);
+  channel_ = grpc::CreateCustomChannel(server, grpc::InsecureChannelCredentials(), arguments);
+  jobs_ = v1::Jobs::NewStub(channel_);
+  telemetry_ = v1::Telemetry::NewStub(channel_);
+  stages_ = v1::Stages::NewStub(channel_);
+  artifacts_ = v1::Artifacts::NewStub(channel_);
+  cases_ = v1::Cases::NewStub(channel_);
+}
+
+v1::CreateJobResponse JobClient::create(const v1::CreateJobRequest& request) {
+  for (int attempt = 1;; ++attempt) {
+    try {
+      return unary<v1::CreateJobResponse>([&](auto* c, auto* r) { return jobs_->CreateJob(c, request, r); }, 60);
+    } catch (const RpcError& error) {
+      if (error.status() != grpc::StatusCode::UNAVAILABLE || attempt == 5) throw;
+      std::this_thread::sleep_for(std::chrono::milliseconds(200 * attempt));
+    }
+  }
+}
+
+v1::Job JobClient::get(const std::string& name, v1::JobView view) {
+  v1::GetJobRequest request;
+  request.set_name(name);
+  request.set_view(view);
+  return unary<v1::Job>([&](auto* c, auto* r) { return jobs_->GetJob(c, request, r); });
+}
+
+v1::ListJobsResponse JobClient::list(const v1::ListJobsRequest& request) {
+  return unary<v1::ListJobsResponse>([&](auto* c, auto* r) { return jobs_->ListJobs(c, request, r); });
+}
+
+v1::Job JobClient::cancel(const std::string& name) {
+  v1::CancelJobRequest request;
+  request.set_name(name);
+  return unary<v1::Job>([&](auto* c, auto* r) { return jobs_->CancelJob(c, request, r); });
+}
+
+void JobClient::erase(const std::string& name) {
+  v1::DeleteJobRequest request;
+  request.set_name(name);
+  unary<v1::DeleteJobResponse>([&](auto* c, auto* r) { return jobs_->DeleteJob(c, request, r); });
+}
+
+v1::CaseReport JobClient::validate(const v1::ValidateCaseRequest& request) {
+  return unary<v1::CaseReport>([&](auto* c, auto* r) { return cases_->ValidateCase(c, request, r); }, 60);
+}
+
+v1::ListStagesResponse JobClient::stages(const std::string& name) {
+  v1::ListStagesRequest request;
+  request.set_job(name);
+  return unary<v1::ListStagesResponse>([&](auto* c, auto* r) { return stages_->ListStages(c, request, r); });
+}
+
+v1::ListArtifactsResponse JobClient::artifacts(const std::string& name) {
+  v1::ListArtifactsRequest request;
+  request.set_job(name);
+  return unary<v1::ListArtifactsResponse>([&](auto* c, auto* r) { return artifacts_->ListArtifacts(c, request, r); });
+}
+
+void JobClient::history(const std::string& name, const std::function<void(const v1::ReadSamplesResponse&)>& page) {
+  v1::ReadSamplesRequest request;
+  request.set_job(name);
+  request.set_page_size(5000);
+  for (;;) {
+    const auto response =
+        unary<v1::ReadSamplesResponse>([&](auto* c, auto* r) { return telemetry_->ReadSamples(c, request, r); }, 30);
+    page(response);
+    if (response.chunk().times_s_size() == 0) return;
+    request.set_after_sequence(response.chunk().first_sequence() + response.chunk().times_s_size() - 1);
+  }
+}
+
+void JobClient::download(const std::string& name, const std::string& artifact,
+                         const std::function<void(const std::string&)>& piece) {
+  v1::DownloadArtifactRequest request;
+  request.set_job(name);
+  request.set_artifact(artifact);
+  for (int failures = 0;;) {
+    grpc::ClientContext context;
+    set_deadline(context, 600);
+    const auto reader = artifacts_->DownloadArtifact(&context, request);
+    v1::DownloadArtifactResponse response;
+    while (reader->Read(&response)) {
+      piece(response.data());
+      request.set_offset(request.offset() + static_cast<std::int64_t>(response.data().size()));
+      failures = 0;
+    }
+    const grpc::Status status = reader->Finish();
+    if (status.ok()) return;
+    if (status.error_code() != grpc::StatusCode::UNAVAILABLE || ++failures > 10) check(status);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200 * failures));
+  }
+}
+
+grpc::Status JobClient::watch(const std::string& name, std::int64_t after,
+                              const std::function<bool(const v1::WatchSamplesResponse&)>& message) {
+  v1::WatchSamplesRequest request;
+  request.set_job(name);
+  request.set_after_sequence(after);
+  grpc::ClientContext context;
+  const auto reader = telemetry_->WatchSamples(&context, request);
+  v1::WatchSamplesResponse response;
+  while (reader->Read(&response)) {
+    if (message(response)) continue;
+    context.TryCancel();
+    reader->Finish();
+    return grpc::Status::OK;
+  }
+  return reader->Finish();
+}
+
+std::string JobClient::resolve(const std::string& job) {
+  if (job.starts_with("jobs/")) return job;
+  if (job != "latest") return "jobs/" + job;
+  v1::ListJobsRequest request;
+  request.set_page_size(1);
+  const auto jobs = list(request);
+  if (jobs.jobs_size() == 0) throw ClientError(exit_not_found, "there is no job yet; submit one");
+  return jobs.jobs(0).name();
+}
+
+std::string new_request_id() {
+  std::random_device random;
+  std::array<unsigned, 4> r{};
+  for (unsigned& x : r) x = random();
+  char text[40];
+  std::snprintf(text, sizeof text, "%08x-%04x-4%03x-%04x-%04x%08x", r[0], r[1] >> 16, r[1] & 0xfffu,
+                0x8000u | ((r[2] >> 16) & 0x3fffu), r[2] & 0xffffu, r[3]);
+  return text;
+}
+
+}  // namespace seaway::client

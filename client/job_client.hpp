@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The service as the commands see it: one call a function, deadlines, and failures as exceptions.
+#pragma once
+
+#include <grpcpp/channel.h>
+#include <grpcpp/support/status.h>
+
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "seaway/v1/job_service.grpc.pb.h"
+
+namespace seaway::client {
+
+/// What the program returns to its caller.
+enum ExitCode {
+  exit_ok = 0,
+  exit_failed = 1,       ///< the job failed, or something went wrong that has no code of its own
+  exit_usage = 2,        ///< wrong options, wrong case, wrong request
+  exit_cancelled = 3,    ///< the job that was watched was cancelled
+  exit_unreachable = 4,  ///< the server does not answer
+  exit_not_found = 5,    ///< no such job or artifact
+};
+
+class ClientError : public std::runtime_error {
+ public:
+  ClientError(ExitCode code, const std::string& text) : std::runtime_error(text), code_(code) {}
+  ExitCode code() const { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+/// A status of the service that is not OK.
+class RpcError : public ClientError {
+ public:
+  explicit RpcError(const grpc::Status& status);
+  grpc::StatusCode status() const { return status_; }
+  /// Field and description of what the service refused.
+  const std::vector<std::pair<std::string, std::string>>& violations() const { return violations_; }
+
+ private:
+  grpc::StatusCode status_;
+  std::vector<std::pair<std::string, std::string>> violations_;
+};
+
+class JobClient {
+ public:
+  explicit JobClient(const std::string& server);
+
+  /// Repeats a submit that got no answer with the same request id, so that it makes one job.
+  v1::CreateJobResponse create(const v1::CreateJobRequest& request);
+  v1::Job get(const std::string& name, v1::JobView view = v1::JOB_VIEW_BASIC);
+  v1::ListJobsResponse list(const v1::ListJobsRequest& request);
+  v1::Job cancel(const std::string& name);
+  void erase(const std::string& name);
+  v1::CaseReport validate(const v1::ValidateCaseRequest& request);
+  v1::ListStagesResponse stages(const std::string& name);
+  v1::ListArtifactsResponse artifacts(const std::string& name);
+  /// The whole history, page by page.
+  void history(const std::string& name, const std::function<void(const v1::ReadSamplesResponse&)>& page);
+  void download(const std::string& name, const std::string& artifact, const std::function<void(const std::string&)>& piece);
+  /// One stream until it ends; `message` returns false to leave it.
+  grpc::Status watch(const std::string& name, std::int64_t after,
+                     const std::function<bool(const v1::WatchSamplesResponse&)>& message);
+
+  /// jobs/<uid> out of what a person wrote: a uid, jobs/<uid>, or latest.
+  std::string resolve(const std::string& job);
+
+ private:
+  std::shared_ptr<grpc::Channel> channel_;
+  std::unique_ptr<v1::Jobs::Stub> jobs_;
+  std::unique_ptr<v1::Telemetry::Stub> telemetry_;
+  std::unique_ptr<v1::Stages::Stub> stages_;
+  std::unique_ptr<v1::Artifacts::Stub> artifacts_;
+  std::unique_ptr<v1::Cases::Stub> cases_;
+};
+
+/// A random UUID (version 4).
+std::string new_request_id();
+
+}  // namespace seaway::client

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// seaway: the command line client.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "client/commands/commands.hpp"
+#include "proto/yaml.hpp"
+
+int main(int argc, char** argv) {
+  using namespace seaway::client;
+  CLI::App app{"seaway: submits cases to seawayd and shows what comes back", "seaway"};
+  app.footer("Exit codes: 0 done, 1 the job or the command failed, 2 wrong usage or case, 3 the job was cancelled,\n"
+             "4 the server cannot be reached, 5 no such job or artifact.");
+  Common common;
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.add_option("--server", common.server, "host:port or unix:/path")->envname("SEAWAY_SERVER")->capture_default_str();
+  app.add_flag("--json", common.json, "machine-readable output");
+  app.set_version_flag("--version", std::string(SEAWAY_VERSION));
+  add_submit(app, common);
+  add_watch(app, common);
+  add_jobs(app, common);
+  add_results(app, common);
+  add_plot(app, common);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_ok : exit_usage;
+  }
+  try {
+    JobClient client(common.server);
+    return common.run(client);
+  } catch (const seaway::yaml::InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return exit_usage;
+  } catch (const ClientError& error) {
+    std::fprintf(stderr, "seaway: %s\n", error.what());
+    return error.code();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "seaway: %s\n", error.what());
+    return exit_failed;
+  }
+}

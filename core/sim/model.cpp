@@ -1,0 +1,166 @@
+// From the case to what all stages share, and the mesh of a stage.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/error.hpp"
+#include "core/mesh/refinement.hpp"
+#include "core/sim/build_hull.hpp"
+#include "core/sim/simulation.hpp"
+
+namespace seaway::sim {
+namespace {
+
+std::shared_ptr<const waves::WaveField> wave_of(const Case& c) {
+  if (c.wave.kind == Wave::Kind::none) return nullptr;
+  waves::RegularWaveSpec spec;
+  spec.theory = c.wave.theory == Wave::Theory::airy ? waves::RegularWaveSpec::Theory::airy
+                                                    : waves::RegularWaveSpec::Theory::stream_function;
+  spec.mean_flow = c.wave.mean_flow == Wave::MeanFlow::zero_eulerian
+                       ? waves::RegularWaveSpec::MeanFlow::zero_eulerian
+                       : waves::RegularWaveSpec::MeanFlow::zero_transport;
+  spec.height = c.wave.height;
+  spec.period = c.wave.period;
+  spec.length = c.wave.length;
+  spec.depth = -c.tank.lower.z();
+  spec.heading = c.wave.heading;
+  spec.phase = c.wave.phase;
+  spec.gravity = c.fluids.gravity;
+  spec.rho = c.fluids.rho_water;
+  return waves::make_wave(spec);
+}
+
+/// Shortest and longest of the wave's and the rough natural periods; 0 where there is none.
+struct Periods {
+  double shortest = 0, longest = 0;
+  void add(double period) {
+    if (!(period > 0) || !std::isfinite(period)) return;
+    shortest = shortest > 0 ? std::min(shortest, period) : period;
+    longest = std::max(longest, period);
+  }
+};
+
+void add_natural_periods(const Case& c, const hull::Section& section, double draft, Periods& periods) {
+  const auto loops = hull::buoyant_loops(section, open_compartments(c.hull));
+  const hull::Hydrostatics at = hull::hydrostatics(loops, {draft, 0});
+  const double gm = hull::metacentric_height(loops, {draft, 0}, from_vec3<2>(c.body.cog));
+  const auto is_free = [&](Dof dof) {
+    return std::find(c.body.free.begin(), c.body.free.end(), dof) != c.body.free.end();
+  };
+  const double weight = c.body.mass * c.fluids.gravity;
+  // Rough added inertia: a quarter of the dry one in roll, the mass in heave.
+  if (is_free(Dof::roll) && gm > 0)
+    periods.add(2 * pi * c.body.gyradii.x() * std::sqrt(1.25 * c.body.mass / (weight * gm)));
+  const double stiffness = c.fluids.rho_water * c.fluids.gravity * at.waterplane_breadth;
+  if (is_free(Dof::heave) && stiffness > 0) periods.add(2 * pi * std::sqrt(2 * c.body.mass / stiffness));
+}
+
+}  // namespace
+
+template <int Dim>
+Model<Dim> make_model(const Case& c) {
+  SEAWAY_CHECK(c.dim == Dim, "dimension {} is not available here; use 2", c.dim);
+  SEAWAY_CHECK(!c.stages.empty(), "cascade.stages is empty; give at least one stage");
+  Model<Dim> m;
+  m.description = c;
+  std::array<bool, Dim> periodic{};
+  for (int a = 0; a < Dim; ++a)
+    periodic[static_cast<std::size_t>(a)] = c.tank.periodic[static_cast<std::size_t>(a + 3 - Dim)];
+  m.grid = mesh::make_tank_grid<Dim>(from_vec3<Dim>(c.tank.lower), from_vec3<Dim>(c.tank.upper), c.base_cell, periodic);
+  m.fluids.rho_water = c.fluids.rho_water;
+  m.fluids.rho_air = c.fluids.rho_air;
+  m.fluids.nu_water = c.fluids.nu_water;
+  m.fluids.nu_air = c.fluids.nu_air;
+  m.fluids.gravity = c.fluids.gravity;
+  m.fluids.viscous = c.fluids.viscous;
+  if (c.tank.open_top) m.boundaries.kind[Dim - 1][1] = field::BoundaryKind::open;
+  m.wave = wave_of(c);
+  Periods periods;
+  if (m.wave) periods.add(m.wave->period());
+  for (const auto& p : c.body.prescribed) {
+    m.prescribed.push_back({static_cast<motion::Dof>(p.dof), p.amplitude, p.period, p.ramp});
+    periods.add(p.period);
+  }
+  if constexpr (Dim == 2) {
+    if (c.hull.shape != Hull::Shape::none) {
+      const auto section = build_section_hull(c);
+      m.hull = section;
+      m.body = motion::make_rigid_body<Dim>(c.body.mass, c.body.cog, c.body.gyradii);
+      const double draft = start_draft(c, section->section());
+      m.rest_cog = from_vec3<Dim>(c.body.cog);
+      m.rest_cog[Dim - 1] -= draft;
+      m.start_pose = motion::make_pose<Dim>(m.rest_cog + from_vec3<Dim>(c.body.offset), {c.body.angles.x(), 0, 0});
+      std::vector<motion::Dof> free;
+      for (const Dof dof : c.body.free) free.push_back(static_cast<motion::Dof>(dof));
+      m.free = motion::free_dofs<Dim>(std::span<const motion::Dof>(free));
+      for (const auto& compartment : c.hull.compartments) m.compartments.push_back(compartment.name);
+      m.displacement = c.body.mass / c.fluids.rho_water;
+      add_natural_periods(c, section->section(), draft, periods);
+    }
+  }
+  m.period = m.wave ? m.wave->period() : periods.longest;
+  m.dt = c.time.dt;
+  if (m.dt <= 0) {
+    double shortest = periods.shortest;
+    if (shortest <= 0) shortest = 2 * pi * std::sqrt(std::abs(c.tank.lower.z()) / c.fluids.gravity);
+    m.dt = shortest / c.time.steps_per_period;
+    // Whole steps in a wave period, so that harmonic fits see every phase alike.
+    if (m.wave) m.dt = m.wave->period() / std::ceil(m.wave->period() / m.dt - 1e-9);
+  }
+  return m;
+}
+
+template <int Dim>
+std::unique_ptr<Forest<Dim>> make_forest(const Model<Dim>& m, const MeshRule& rule, int threads) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  std::vector<mesh::RefinedBox<Dim>> boxes;
+  Vec<Dim> centre = m.start_pose.cog;
+  Vec<Dim> reach = Vec<Dim>::Zero();
+  if (m.hull) {
+    const auto bounds = m.hull->bounds();
+    // Corners of the hull's bounding box at all headings of the sweep.
+    Vec<Dim> lower = Vec<Dim>::Constant(inf), upper = Vec<Dim>::Constant(-inf);
+    for (int step = -8; step <= 8; ++step) {
+      motion::Angles angles;
+      angles.roll = rule.hull_sweep * step / 8.0;
+      const auto pose = motion::make_pose<Dim>(m.start_pose.cog, angles);
+      for (int corner = 0; corner < (1 << Dim); ++corner) {
+        Vec<Dim> x;
+        for (int a = 0; a < Dim; ++a) x[a] = ((corner >> a) & 1) ? bounds.upper[a] : bounds.lower[a];
+        const Vec<Dim> y = motion::hull_to_earth<Dim>(m.body, pose, x);
+        lower = lower.cwiseMin(y);
+        upper = upper.cwiseMax(y);
+      }
+    }
+    reach = 0.5 * (bounds.upper - bounds.lower);
+    if (rule.hull_cell > 0) {
+      const double margin = rule.hull_margin > 0 ? rule.hull_margin : 8 * rule.hull_cell;
+      const double draft = m.body.cog[Dim - 1] - m.rest_cog[Dim - 1];
+      const double heave = rule.hull_heave > 0 ? rule.hull_heave : 0.25 * draft;
+      mesh::RefinedBox<Dim> box{lower.array() - margin, upper.array() + margin, rule.hull_cell};
+      box.lower[Dim - 1] -= heave;
+      box.upper[Dim - 1] += heave;
+      boxes.push_back(box);
+    }
+  }
+  for (const SurfaceBand& band : rule.surface) {
+    mesh::RefinedBox<Dim> box{Vec<Dim>::Constant(-inf), Vec<Dim>::Constant(inf), band.cell};
+    for (int a = 0; a + 1 < Dim; ++a) {
+      if (!std::isfinite(band.within)) continue;
+      box.lower[a] = centre[a] - reach[a] - band.within;
+      box.upper[a] = centre[a] + reach[a] + band.within;
+    }
+    box.lower[Dim - 1] = -band.half_height;
+    box.upper[Dim - 1] = band.half_height;
+    boxes.push_back(box);
+  }
+  for (const RefinementBox& b : rule.boxes)
+    boxes.push_back({from_vec3<Dim>(b.lower), from_vec3<Dim>(b.upper), b.cell});
+  const int level = boxes.empty() ? 0 : mesh::finest_level<Dim>(m.grid, boxes);
+  return std::make_unique<Forest<Dim>>(m.grid, level, mesh::refine_boxes<Dim>(m.grid, boxes), threads);
+}
+
+template Model<2> make_model<2>(const Case&);
+template std::unique_ptr<Forest<2>> make_forest<2>(const Model<2>&, const MeshRule&, int);
+
+}  // namespace seaway::sim

@@ -1,0 +1,453 @@
+#include "core/sim/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/field/restrict.hpp"
+#include "core/flow/plic.hpp"
+#include "core/waves/water_fraction.hpp"
+
+namespace seaway::sim {
+
+using field::cell_strides;
+using field::cells_upper;
+using field::face_strides;
+using field::faces_upper;
+using field::filled;
+using field::for_box;
+using field::offset;
+using mesh::BlockShape;
+
+template <int Dim>
+Simulation<Dim>::Simulation(std::shared_ptr<const Model<Dim>> model, std::unique_ptr<Forest<Dim>> forest,
+                            const RunContext& context)
+    : model_(std::move(model)), forest_(std::move(forest)), context_(context), state_(*forest_),
+      advection_(*forest_, model_->fluids, model_->boundaries),
+      projection_(*forest_, model_->fluids, model_->boundaries),
+      viscosity_(*forest_, model_->fluids, model_->boundaries) {
+  const Case& c = model_->description;
+  if (model_->hull) mask_ = std::make_unique<flow::HullMask<Dim>>(*forest_, model_->hull, model_->body);
+  if (c.zones.generation_length > 0 || c.zones.absorption_length > 0) {
+    // The wave comes in at the lower end unless it goes towards the negative axis.
+    int axis = 0;
+    bool from_lower = true;
+    if constexpr (Dim == 2) {
+      from_lower = std::sin(c.wave.heading) >= 0;
+    } else {
+      axis = std::abs(std::sin(c.wave.heading)) > std::abs(std::cos(c.wave.heading)) ? 1 : 0;
+      from_lower = (axis == 1 ? std::sin(c.wave.heading) : std::cos(c.wave.heading)) >= 0;
+    }
+    const bool wave = model_->wave != nullptr;
+    flow::ZoneSpec in{c.zones.generation_length, wave};
+    flow::ZoneSpec out{c.zones.absorption_length, wave && c.zones.absorption_target == Zones::Target::wave};
+    if (!from_lower) std::swap(in, out);
+    double rate = c.zones.rate;
+    if (rate <= 0) rate = model_->period > 0 ? 10 / model_->period : 6.0;
+    zones_ = std::make_unique<flow::WaveZones<Dim>>(*forest_, model_->wave, axis, in, out, rate);
+  }
+  dt_ = next_dt_ = std::min(model_->dt, c.fluids.viscous ? 0.9 * viscosity_.step_limit() : model_->dt);
+  body_.pose = body_.half_pose = model_->start_pose;
+  body_.released = c.body.release == Body::Release::at_start;
+  advection_.set_flux_visitor([this](int axis, const FaceField<double, Dim>& swept) {
+    if (mask_) book_.add_fluxes(*mask_, axis, swept);
+    if (zones_ && axis == zones_->axis()) exchanged_ += end_flux(swept);
+  });
+  clock_.charge("mesh");
+}
+
+template <int Dim>
+double Simulation<Dim>::end_flux(const FaceField<double, Dim>& swept) const {
+  const int axis = zones_->axis();
+  double sum = 0;
+  for (const int b : zones_->blocks()) {
+    const auto& block = forest_->block(b);
+    const double area = block.cell_volume() / block.h[axis];
+    for (int side = 0; side < 2; ++side) {
+      if (block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))] != mesh::no_block) continue;
+      IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
+      lower[axis] = side == 0 ? 0 : BlockShape<Dim>::n;
+      upper[axis] = lower[axis] + 1;
+      for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
+        sum += (side == 0 ? area : -area) * swept.block(axis, b)[offset<Dim>(i, face_strides<Dim>(axis))];
+      });
+    }
+  }
+  return sum;
+}
+
+template <int Dim>
+void Simulation<Dim>::initialise() {
+  const waves::WaveField* wave = model_->wave.get();
+  forest_->for_each_leaf([&](int b) {
+    const auto& block = forest_->block(b);
+    double* vof = state_.vof.block(b);
+    for_box<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& i) {
+      const Vec<Dim> x = block.cell_centre(i), half = 0.5 * block.h;
+      double& c = vof[offset<Dim>(i, cell_strides<Dim>())];
+      if (wave) c = waves::water_fraction<Dim>(*wave, x - half, x + half, 0.0);
+      else c = std::clamp(0.5 - x[Dim - 1] / block.h[Dim - 1], 0.0, 1.0);
+    });
+  });
+  if (mask_) {
+    mask_->update(body_.pose, body_.half_pose);
+    // Compartments start filled to z = 0, or dry.
+    const auto& window = mask_->window();
+    window.load_cells(state_.vof, window_vof_);
+    window.for_cells([&](const IVec<Dim>& i) {
+      const Vec<Dim> x = window.cell_centre(i);
+      const int space = mask_->space_at(x);
+      if (space == 0) return;
+      const bool flooded = model_->description.hull.compartments[static_cast<std::size_t>(space - 1)].flooded;
+      double& c = window_vof_[static_cast<std::size_t>(window.at(i))];
+      c = flooded ? std::clamp(0.5 - x[Dim - 1] / window.h()[Dim - 1], 0.0, 1.0) : 0.0;
+    });
+    window.store_cells(window_vof_, state_.vof);
+  }
+  field::restrict_cells<double, Dim>(*forest_, state_.vof);
+  if (wave) {
+    forest_->for_each_leaf([&](int b) {
+      const auto& block = forest_->block(b);
+      const double top = block.origin[Dim - 1];
+      if (top > wave->crest() + block.h[Dim - 1]) return;
+      for (int a = 0; a < Dim; ++a) {
+        for_box<Dim>(filled<Dim>(0), faces_upper<Dim>(a), [&](const IVec<Dim>& i) {
+          const Vec<Dim> x = block.face_centre(i, a);
+          if (x[Dim - 1] > wave->elevation(to_vec3<Dim>(x).x(), to_vec3<Dim>(x).y(), 0.0) + 0.5 * block.h[Dim - 1]) return;
+          state_.u.block(a, b)[offset<Dim>(i, face_strides<Dim>(a))] = waves::velocity_at<Dim>(*wave, x, 0.0)[a];
+        });
+      }
+      // Walls stay closed; driven ends are set by the zones.
+      for (int a = 0; a < Dim; ++a) {
+        for (int side = 0; side < 2; ++side) {
+          if (block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))] != mesh::no_block) continue;
+          if (model_->boundaries.kind[static_cast<std::size_t>(a)][static_cast<std::size_t>(side)] == field::BoundaryKind::open) continue;
+          IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
+          lower[a] = side == 0 ? 0 : BlockShape<Dim>::n;
+          upper[a] = lower[a] + 1;
+          for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
+            state_.u.block(a, b)[offset<Dim>(i, face_strides<Dim>(a))] = 0;
+          });
+        }
+      }
+    });
+    field::restrict_faces<double, Dim>(*forest_, state_.u);
+  }
+  clock_.charge("forcing");
+  extend_vof_and_settle(dt_, true);
+  motion::prescribe<Dim>(model_->prescribed, 0.0, dt_, body_.twist);
+  if (zones_) zones_->relax_velocity(state_, 0.5 * dt_, 0.0);
+  StepReport report;
+  kick(0.5 * dt_, report);
+  body_.old_twist = body_.twist;
+  if (report.failed) fail(ErrorCode::diverged, "the first pressure solve failed: {}", report.failure);
+}
+
+template <int Dim>
+std::pair<double, double> Simulation<Dim>::adopt(flow::FlowState<Dim>&& state, const BodyState<Dim>& body,
+                                                 double time, std::int64_t step, double dt,
+                                                 const std::map<int, double>& reservoirs,
+                                                 const std::vector<char>* free_cells) {
+  state_ = std::move(state);
+  body_ = body;
+  time_ = time;
+  step_ = step;
+  sub_step_ = step;
+  dt_ = next_dt_ = std::min(dt, dt_);
+  if (mask_) mask_->update(body_.pose, body_.half_pose);
+  field::restrict_cells<double, Dim>(*forest_, state_.vof);
+  field::restrict_cells<double, Dim>(*forest_, state_.p);
+  field::restrict_faces<double, Dim>(*forest_, state_.u);
+  field::restrict_faces<double, Dim>(*forest_, state_.w);
+  extend_vof_and_settle(dt_, true);
+  book_.reservoirs() = reservoirs;
+  const double before = projection_.divergence(state_, dt_);
+  double after = before;
+  if (free_cells) {
+    projection_.prepare(state_, mask_.get(), free_cells);
+    (void)projection_.repair(state_, mask_.get(), body_.twist, *free_cells, dt_, {1e-10, 400});
+    after = projection_.divergence(state_, dt_);
+  }
+  extend_velocity();
+  clock_.charge("mapping");
+  return {before, after};
+}
+
+template <int Dim>
+void Simulation<Dim>::restore(flow::FlowState<Dim>&& state, const BodyState<Dim>& body, double time,
+                              std::int64_t step, double dt, double next_dt, double exchanged,
+                              const std::map<int, double>& reservoirs) {
+  state_ = std::move(state);
+  body_ = body;
+  time_ = time;
+  step_ = sub_step_ = step;
+  dt_ = dt;
+  next_dt_ = next_dt;
+  exchanged_ = exchanged;
+  field::restrict_cells<double, Dim>(*forest_, state_.vof);
+  field::restrict_cells<double, Dim>(*forest_, state_.p);
+  field::restrict_faces<double, Dim>(*forest_, state_.u);
+  field::restrict_faces<double, Dim>(*forest_, state_.w);
+  if (mask_) {
+    mask_->update(body_.pose, body_.half_pose);
+    mask_->window().load_cells(state_.vof, window_vof_);
+    book_.restart(*mask_, window_vof_);
+    book_.reservoirs() = reservoirs;
+  }
+  clock_.charge("checkpoint");
+}
+
+template <int Dim>
+void Simulation<Dim>::extend_vof_and_settle(double dt, bool restart) {
+  if (!mask_) return;
+  const auto& window = mask_->window();
+  window.load_cells(state_.vof, window_vof_);
+  window_advected_ = window_vof_;
+  extension_.extend_vof(*mask_, window_vof_);
+  if (restart) book_.restart(*mask_, window_vof_);
+  else book_.settle(*mask_, window_advected_, window_vof_, dt, model_->description.numerics.volume_correction);
+  window.store_cells(window_vof_, state_.vof);
+  field::restrict_cells<double, Dim>(*forest_, state_.vof);
+}
+
+template <int Dim>
+void Simulation<Dim>::extend_velocity() {
+  if (!mask_) return;
+  std::vector<double> u;
+  for (int axis = 0; axis < Dim; ++axis) {
+    mask_->window().load_faces(state_.u, axis, u);
+    extension_.extend_velocity(*mask_, axis, body_.twist, u);
+    mask_->window().store_faces(u, axis, state_.u);
+  }
+  field::restrict_faces<double, Dim>(*forest_, state_.u);
+}
+
+/// Cells that open up later start from their neighbours' pressure.
+template <int Dim>
+void Simulation<Dim>::extend_pressure() {
+  if (!mask_) return;
+  const auto& window = mask_->window();
+  std::vector<double> p;
+  window.load_cells(state_.p, p);
+  std::vector<char> known(window.size(), 0);
+  window.for_cells([&](const IVec<Dim>& i) {
+    const auto at = static_cast<std::size_t>(window.at(i));
+    for (int a = 0; a < Dim; ++a) {
+      const auto& aperture = mask_->half().aperture[static_cast<std::size_t>(a)];
+      known[at] = known[at] || aperture[at] > 0 || aperture[at + static_cast<std::size_t>(window.stride(a))] > 0;
+    }
+  });
+  IVec<Dim> upper = window.n();
+  for (int& u : upper) --u;
+  for (int layer = 0; layer < 2; ++layer) {
+    std::vector<std::pair<std::size_t, double>> fill;
+    for_box<Dim>(filled<Dim>(1), upper, [&](const IVec<Dim>& i) {
+      const auto at = static_cast<std::size_t>(window.at(i));
+      if (known[at]) return;
+      double sum = 0;
+      int count = 0;
+      for (int a = 0; a < Dim; ++a) {
+        for (int side = -1; side <= 1; side += 2) {
+          const auto from = static_cast<std::size_t>(static_cast<int>(at) + side * window.stride(a));
+          if (!known[from]) continue;
+          const double rise = a == Dim - 1 ? side * window.h()[a] : 0.0;  // neighbour's height over ours
+          sum += p[from] + model_->fluids.rho(window_vof_[from]) * model_->fluids.gravity * rise;
+          ++count;
+        }
+      }
+      if (count > 0) fill.emplace_back(at, sum / count);
+    });
+    for (const auto& [at, value] : fill) {
+      p[at] = value;
+      known[at] = 1;
+    }
+  }
+  window.store_cells(p, state_.p);
+}
+
+template <int Dim>
+motion::FreeDofs<Dim> Simulation<Dim>::free_now() const {
+  return body_.released ? model_->free : motion::FreeDofs<Dim>{};
+}
+
+template <int Dim>
+motion::DofMatrix<Dim> Simulation<Dim>::inverse_mass() const {
+  if (!mask_) return motion::DofMatrix<Dim>::Zero();
+  const auto free = free_now();
+  if (std::none_of(free.begin(), free.end(), [](bool f) { return f; })) return motion::DofMatrix<Dim>::Zero();
+  return motion::effective_inverse_mass<Dim>(model_->body, body_.pose, free);
+}
+
+/// Forces over dt, then the projection: velocities go from half a step before the new positions to half a
+/// step after them.
+template <int Dim>
+void Simulation<Dim>::kick(double dt, StepReport& report) {
+  const Case& c = model_->description;
+  if (c.fluids.viscous) viscosity_.apply(state_, dt);
+  projection_.apply_gravity(state_, dt);
+  if (zones_) zones_->relax_velocity(state_, time_ + 0.5 * next_dt_, dt);
+  clock_.charge("forcing");
+  const motion::DofMatrix<Dim> inverse = inverse_mass();
+  if (mask_) {
+    const auto rows_now = mask_->rigid_rows(mask_->now());
+    const auto rows_half = mask_->rigid_rows(mask_->half());
+    motion::DofVector<Dim> force = motion::gyroscopic_load<Dim>(model_->body, body_.pose, body_.twist);
+    force[Dim - 1] -= model_->body.mass * model_->fluids.gravity;
+    // The pressure acts on the hull where it is now, while the solve has it half a step ahead.
+    force += rows_now.gather(state_.p.data()) - rows_half.gather(state_.p.data());
+    body_.twist += dt * (inverse * force);
+  }
+  clock_.charge("hull");
+  projection_.prepare(state_, mask_.get());
+  report.pressure = projection_.project(state_, mask_.get(), body_.twist, inverse, dt,
+                                        {c.numerics.pressure_tolerance, c.numerics.max_pressure_iterations});
+  clock_.charge("pressure");
+  if (!std::isfinite(report.pressure.residual_after)) {
+    report.failed = true;
+    report.failure = "the pressure is not finite";
+    return;
+  }
+  if (mask_) load_ = mask_->rigid_rows(mask_->now()).gather(state_.p.data());
+  extend_pressure();
+  extend_velocity();
+  clock_.charge("hull");
+}
+
+template <int Dim>
+StepReport Simulation<Dim>::step() {
+  const Case& c = model_->description;
+  StepReport report;
+  clock_.charge("output");
+  report.courant = advection_.courant_number(state_.w, dt_);
+  if (!std::isfinite(report.courant) || report.courant > 16 * c.time.cfl * c.time.max_substeps) {
+    report.failed = true;
+    report.failure = fmt::format("the Courant number reached {:.3g} at t = {:.4f} s", report.courant, time_);
+    return report;
+  }
+  report.substeps = std::max(1, static_cast<int>(std::ceil(report.courant / c.time.cfl)));
+  // Transport with w at t + dt/2.
+  if (mask_) book_.begin_step(*mask_, state_);
+  for (int s = 0; s < report.substeps; ++s) advection_.advance(state_, dt_ / report.substeps, sub_step_++);
+  if (mask_) book_.close_fluxes(*mask_, state_.vof, body_.twist, dt_);
+  clock_.charge("advection");
+  // Move the hull, see where it will be half a step later.
+  plan_next_step(report);
+  const double old_dt = dt_;
+  time_ += dt_;
+  ++step_;
+  sub_step_ = step_;
+  if (mask_) {
+    body_.pose = motion::advance(body_.pose, body_.twist, dt_);
+    const motion::Twist<Dim> ahead = 2 * body_.twist - body_.old_twist;
+    body_.old_twist = body_.twist;
+    const bool still = body_.twist.isZero(0) && ahead.isZero(0);
+    body_.half_pose = still || !c.numerics.half_step_geometry
+                          ? body_.pose
+                          : motion::advance(body_.pose, ahead, 0.5 * next_dt_);
+    mask_->update(body_.pose, body_.half_pose);
+    extend_vof_and_settle(dt_, false);
+    motion::prescribe<Dim>(model_->prescribed, time_, next_dt_, body_.twist);
+  }
+  clock_.charge("hull");
+  if (zones_) exchanged_ += zones_->relax_vof(state_.vof, time_, dt_);
+  clock_.charge("forcing");
+  kick(0.5 * (old_dt + next_dt_), report);
+  dt_ = next_dt_;
+  return report;
+}
+
+/// The step stays what it is unless transport would need too many sub-steps; it changes by 10 % at most.
+template <int Dim>
+void Simulation<Dim>::plan_next_step(const StepReport& report) {
+  const double limit = model_->description.time.cfl * model_->description.time.max_substeps;
+  const double wanted = std::min(model_->dt, viscosity_.step_limit() * 0.9);
+  next_dt_ = dt_;
+  if (report.courant > limit) next_dt_ = 0.9 * dt_;
+  else if (dt_ < wanted && report.courant * 1.25 < limit) next_dt_ = std::min(wanted, 1.05 * dt_);
+}
+
+template <int Dim>
+WaterBalance Simulation<Dim>::water() const {
+  std::vector<char> in_window(static_cast<std::size_t>(forest_->n_blocks()), 0);
+  WaterBalance balance;
+  if (mask_) {
+    for (const auto& tile : mask_->window().tiles()) in_window[static_cast<std::size_t>(tile.block)] = 1;
+    for (const double v : book_.visible()) balance.visible += v;
+    balance.reservoir = book_.reservoir_total();
+  }
+  balance.visible += forest_->sum_over_leaves([&](int b) {
+    if (in_window[static_cast<std::size_t>(b)]) return 0.0;
+    double sum = 0;
+    for (int i = 0; i < BlockShape<Dim>::cells; ++i) sum += state_.vof.block(b)[i];
+    return sum * forest_->block(b).cell_volume();
+  });
+  balance.exchanged = exchanged_;
+  return balance;
+}
+
+template <int Dim>
+std::vector<double> Simulation<Dim>::compartment_volumes() const {
+  std::vector<double> out(model_->compartments.size(), 0.0);
+  if (!mask_ || out.empty()) return out;
+  const auto& window = mask_->window();
+  window.for_cells([&](const IVec<Dim>& i) {
+    const double v = book_.visible()[static_cast<std::size_t>(window.at(i))];
+    if (v <= 0) return;
+    const int space = mask_->space_at(window.cell_centre(i));
+    if (space > 0) out[static_cast<std::size_t>(space - 1)] += v;
+  });
+  return out;
+}
+
+template <int Dim>
+double Simulation<Dim>::elevation(double x, double y) const {
+  Vec3 at(x, y, 0);
+  Vec<Dim> foot = from_vec3<Dim>(at);
+  double z = forest_->grid().lower[Dim - 1], water = 0;
+  while (z < forest_->grid().upper[Dim - 1] - 1e-12) {
+    foot[Dim - 1] = z + 1e-9;
+    const int b = forest_->find_leaf(foot);
+    const auto& block = forest_->block(b);
+    IVec<Dim> i{};
+    for (int a = 0; a < Dim - 1; ++a)
+      i[a] = std::clamp(static_cast<int>((foot[a] - block.origin[a]) / block.h[a]), 0, BlockShape<Dim>::n - 1);
+    for (int l = 0; l < BlockShape<Dim>::n; ++l) {
+      i[Dim - 1] = l;
+      water += block.h[Dim - 1] * state_.vof.block(b)[offset<Dim>(i, cell_strides<Dim>())];
+    }
+    z = block.origin[Dim - 1] + BlockShape<Dim>::n * block.h[Dim - 1];
+  }
+  return forest_->grid().lower[Dim - 1] + water;
+}
+
+template <int Dim>
+double Simulation<Dim>::rms_water_velocity() const {
+  double volume = 0;
+  const auto sum_of = [&](bool squares) {
+    return forest_->sum_over_leaves([&](int b) {
+      double sum = 0;
+      const double* vof = state_.vof.block(b);
+      for_box<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& i) {
+        const double c = vof[offset<Dim>(i, cell_strides<Dim>())];
+        double square = 1;
+        if (squares) {
+          square = 0;
+          for (int a = 0; a < Dim; ++a) {
+            const IVec<Dim> fs = face_strides<Dim>(a);
+            const double* w = state_.w.block(a, b) + offset<Dim>(i, fs);
+            const double mean = 0.5 * (w[0] + w[fs[a]]);
+            square += mean * mean;
+          }
+        }
+        sum += c * square;
+      });
+      return sum * forest_->block(b).cell_volume();
+    });
+  };
+  volume = sum_of(false);
+  return volume > 0 ? std::sqrt(sum_of(true) / volume) : 0.0;
+}
+
+template class Simulation<2>;
+
+}  // namespace seaway::sim

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/config.hpp"
+
+#include <algorithm>
+#include <array>
+#include <thread>
+
+#include "proto/yaml.hpp"
+#include "seaway/v1/server_config.pb.h"
+#include "server/convert/checker.hpp"
+
+namespace seaway::server {
+
+Settings load_settings(const Flags& flags) {
+  v1::ServerConfig m;
+  yaml::SourceMap lines(flags.config_file);
+  if (!flags.config_file.empty()) lines = yaml::read_file(flags.config_file, m);
+  convert::Checker check;
+  check.finite(m);
+  Settings s;
+  s.rpc.port = 7411;
+  if (m.listen().has_address()) s.rpc.address = m.listen().address();
+  if (m.listen().has_port()) s.rpc.port = check.count("listen.port", m.listen().port(), 0, 65535);
+  if (m.storage().has_data_dir()) s.data_dir = m.storage().data_dir();
+  if (m.storage().has_commit_interval_ms())
+    s.commit_interval_ms = check.count("storage.commit_interval_ms", m.storage().commit_interval_ms(), 1, 10000);
+  if (m.workers().has_count()) s.pool.workers = check.count("workers.count", m.workers().count(), 1, 64);
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  s.pool.run.threads = std::max(1, cores / std::max(1, s.pool.workers));
+  if (m.workers().has_threads()) s.pool.run.threads = check.count("workers.threads", m.workers().threads(), 1, 256);
+  if (m.workers().has_checkpoint_interval_s())
+    s.pool.run.checkpoint_interval_s =
+        check.number("workers.checkpoint_interval_s", m.workers().checkpoint_interval_s(), {0, 86400});
+  if (m.workers().has_max_attempts_without_progress())
+    s.max_stalled_attempts = check.count("workers.max_attempts_without_progress",
+                                         m.workers().max_attempts_without_progress(), 1, 1000);
+  if (m.limits().has_queued_jobs())
+    s.limits.queued_jobs = check.count("limits.queued_jobs", m.limits().queued_jobs(), 1, 1'000'000);
+  if (m.limits().has_streams()) s.rpc.max_calls = check.count("limits.streams", m.limits().streams(), 1, 100'000);
+  if (m.limits().has_job_cpu_s())
+    s.limits.job_cpu_s = check.number("limits.job_cpu_s", m.limits().job_cpu_s(), convert::not_negative);
+  if (m.logging().has_level()) s.log_level = m.logging().level();
+  if (m.logging().has_file()) s.log_file = m.logging().file();
+  if (!flags.data_dir.empty()) s.data_dir = flags.data_dir;
+  if (!flags.listen.empty()) s.rpc.address = flags.listen;
+  if (flags.port >= 0) s.rpc.port = check.count("--port", flags.port, 0, 65535);
+  if (!flags.log_level.empty()) s.log_level = flags.log_level;
+  static constexpr std::array<std::string_view, 5> levels{"trace", "debug", "info", "warn", "error"};
+  if (std::find(levels.begin(), levels.end(), s.log_level) == levels.end())
+    check.problem("logging.level", "'" + s.log_level + "' is unknown", "allowed are trace, debug, info, warn, error");
+  if (s.data_dir.empty()) check.problem("storage.data_dir", "is empty", "name a folder");
+  if (!check.ok()) {
+    std::vector<yaml::Problem> problems;
+    for (const auto& d : check.take()) problems.push_back({lines.find(d.field), d.field, d.message, d.hint});
+    throw yaml::InputError(flags.config_file.empty() ? "options" : flags.config_file, std::move(problems));
+  }
+  return s;
+}
+
+}  // namespace seaway::server

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/convert/case.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "server/convert/case_parts.hpp"
+#include "server/convert/input_error.hpp"
+
+namespace seaway::convert {
+namespace {
+
+void read_fluids(const v1::Fluids& m, sim::Fluids& f, Checker& check) {
+  if (m.has_water_density_kg_per_m3())
+    f.rho_water = check.number("fluids.water_density_kg_per_m3", m.water_density_kg_per_m3(), {1, 20000});
+  if (m.has_air_density_kg_per_m3())
+    f.rho_air = check.number("fluids.air_density_kg_per_m3", m.air_density_kg_per_m3(), {1e-3, f.rho_water});
+  if (m.has_water_viscosity_m2_per_s())
+    f.nu_water = check.number("fluids.water_viscosity_m2_per_s", m.water_viscosity_m2_per_s(), {0, 1});
+  if (m.has_air_viscosity_m2_per_s())
+    f.nu_air = check.number("fluids.air_viscosity_m2_per_s", m.air_viscosity_m2_per_s(), {0, 1});
+  if (m.has_gravity_m_per_s2())
+    f.gravity = check.number("fluids.gravity_m_per_s2", m.gravity_m_per_s2(), {0, 100, true});
+  if (m.has_viscous()) f.viscous = m.viscous();
+}
+
+void read_tank(const v1::Case& message, int dim, sim::Tank& tank, Checker& check) {
+  const v1::Tank& m = message.tank();
+  if (!message.has_tank()) {
+    check.problem("tank", "is missing", "give tank.y_m and tank.z_m");
+    return;
+  }
+  read_box(m.x_m(), m.y_m(), m.z_m(), "tank", dim, tank.lower, tank.upper, check);
+  if (m.z_m_size() == 2 && !(m.z_m(0) < 0 && m.z_m(1) > 0))
+    check.problem("tank.z_m", fmt::format("[{}, {}] does not contain the calm level z = 0", m.z_m(0), m.z_m(1)),
+                  "the first number is minus the water depth, the second the height of the lid");
+  for (int i = 0; i < m.periodic_size(); ++i) {
+    const std::string path = fmt::format("tank.periodic[{}]", i);
+    switch (m.periodic(i)) {
+      case v1::AXIS_X:
+        if (dim == 2) check.problem(path, "x does not exist in 2-D", "remove it");
+        tank.periodic[0] = true;
+        break;
+      case v1::AXIS_Y: tank.periodic[1] = true; break;
+      default: check.problem(path, "only x and y can be periodic", "remove it");
+    }
+  }
+  if (m.has_open_top()) tank.open_top = m.open_top();
+}
+
+void read_regular(const v1::RegularWave& m, int dim, sim::Wave& wave, Checker& check) {
+  const std::string path = "wave.regular.";
+  wave.kind = sim::Wave::Kind::regular;
+  wave.height = check.number(path + "height_m", m.height_m(), positive);
+  if (m.has_period_s() == m.has_length_m())
+    check.problem("wave.regular", m.has_period_s() ? "both period_s and length_m are given" : "has no period",
+                  "give exactly one of period_s and length_m");
+  if (m.has_period_s()) wave.period = check.number(path + "period_s", m.period_s(), positive);
+  if (m.has_length_m()) wave.length = check.number(path + "length_m", m.length_m(), positive);
+  if (m.theory() == v1::RegularWave::THEORY_AIRY) wave.theory = sim::Wave::Theory::airy;
+  if (m.mean_flow() == v1::RegularWave::MEAN_FLOW_ZERO_EULERIAN)
+    wave.mean_flow = sim::Wave::MeanFlow::zero_eulerian;
+  if (m.has_heading_deg()) {
+    wave.heading = check.number(path + "heading_deg", m.heading_deg(), {-360, 360}) * degree;
+    if (dim == 2 && std::abs(m.heading_deg()) != 90)
+      check.problem(path + "heading_deg", fmt::format("{} is not possible in a section", m.heading_deg()),
+                    "write 90 (towards port) or -90 (towards starboard)");
+  }
+  if (m.has_phase_deg()) wave.phase = check.number(path + "phase_deg", m.phase_deg(), {-360, 360}) * degree;
+}
+
+void read_zones(const v1::Zones& m, sim::Zones& zones, Checker& check) {
+  if (m.has_generation_length_m())
+    zones.generation_length = check.number("zones.generation_length_m", m.generation_length_m(), not_negative);
+  if (m.has_absorption_length_m())
+    zones.absorption_length = check.number("zones.absorption_length_m", m.absorption_length_m(), not_negative);
+  if (m.has_rate_per_s()) zones.rate = check.number("zones.rate_per_s", m.rate_per_s(), not_negative);
+}
+
+void read_time(const v1::TimeControl& m, sim::TimeControl& time, Checker& check) {
+  if (m.has_dt_s() && m.has_steps_per_period())
+    check.problem("time.steps_per_period", "has no effect beside time.dt_s", "keep one of them");
+  if (m.has_dt_s()) time.dt = check.number("time.dt_s", m.dt_s(), positive);
+  if (m.has_steps_per_period())
+    time.steps_per_period = check.number("time.steps_per_period", m.steps_per_period(), {10, 1e5});
+  if (m.has_max_substeps()) time.max_substeps = check.count("time.max_substeps", m.max_substeps(), 1, 64);
+  if (m.has_cfl()) time.cfl = check.number("time.cfl", m.cfl(), {0, 0.5, true});
+}
+
+void read_numerics(const v1::Numerics& m, sim::Numerics& n, Checker& check) {
+  if (m.has_pressure_tolerance())
+    n.pressure_tolerance = check.number("numerics.pressure_tolerance", m.pressure_tolerance(), {1e-14, 1e-2});
+  if (m.has_max_pressure_iterations())
+    n.max_pressure_iterations =
+        check.count("numerics.max_pressure_iterations", m.max_pressure_iterations(), 1, 100000);
+  if (m.has_volume_correction()) n.volume_correction = m.volume_correction();
+  if (m.has_half_step_geometry()) n.half_step_geometry = m.half_step_geometry();
+}
+
+void read_outputs(const v1::Outputs& m, sim::Outputs& out, Checker& check) {
+  if (m.has_sample_interval_s())
+    out.sample_interval = check.number("outputs.sample_interval_s", m.sample_interval_s(), not_negative);
+  if (m.has_snapshot_interval_s())
+    out.snapshot_interval = check.number("outputs.snapshot_interval_s", m.snapshot_interval_s(), not_negative);
+  check.entries("outputs.gauges", m.gauges_size(), 0, 64);
+  std::set<std::string> names;
+  for (int i = 0; i < m.gauges_size(); ++i) {
+    const std::string path = fmt::format("outputs.gauges[{}].name", i);
+    check.name(path, m.gauges(i).name());
+    if (!names.insert(m.gauges(i).name()).second)
+      check.problem(path, fmt::format("'{}' is used twice", m.gauges(i).name()), "give each gauge its own name");
+    out.gauges.push_back({m.gauges(i).name(), m.gauges(i).x_m(), m.gauges(i).y_m()});
+  }
+}
+
+}  // namespace
+
+void read_box(const Extent& x, const Extent& y, const Extent& z, const std::string& path, int dim, Vec3& lower,
+              Vec3& upper, Checker& check) {
+  const std::array<const Extent*, 3> extents{&x, &y, &z};
+  static constexpr std::array<const char*, 3> names{"x_m", "y_m", "z_m"};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Extent& e = *extents[static_cast<std::size_t>(axis)];
+    const std::string field = path + "." + names[static_cast<std::size_t>(axis)];
+    if (axis == 0 && dim == 2) {
+      if (!e.empty()) check.problem(field, "x does not exist in 2-D", "remove it");
+    } else if (e.size() != 2) {
+      check.problem(field, e.empty() ? "is missing" : fmt::format("has {} numbers", e.size()),
+                    "give [lower, upper] in metres");
+    } else if (!(e[0] < e[1])) {
+      check.problem(field, fmt::format("[{}, {}] is empty", e[0], e[1]), "the first number must be the smaller one");
+    } else {
+      lower[axis] = check.number(field, e[0], any_finite);
+      upper[axis] = check.number(field, e[1], any_finite);
+    }
+  }
+}
+
+Vec3 read_vector(const v1::Vector& v) { return {v.x_m(), v.y_m(), v.z_m()}; }
+
+bool dof_exists(sim::Dof dof, int dim) {
+  return dim == 3 || dof == sim::Dof::sway || dof == sim::Dof::heave || dof == sim::Dof::roll;
+}
+
+sim::Case to_core(const v1::Case& m) {
+  Checker check;
+  sim::Case c;
+  check.finite(m);
+  if (m.title().empty()) check.problem("title", "is missing", "say in a few words what the case is");
+  if (m.title().size() > 200)
+    check.problem("title", fmt::format("{} bytes", m.title().size()), "must be at most 200");
+  c.title = m.title();
+  if (m.dimension() != 2 && m.dimension() != 3)
+    check.problem("dimension", m.dimension() == 0 ? "is missing" : fmt::format("{} is not allowed", m.dimension()),
+                  "write 2 for a section, 3 for a ship");
+  c.dim = m.dimension() == 3 ? 3 : 2;
+  read_fluids(m.fluids(), c.fluids, check);
+  read_tank(m, c.dim, c.tank, check);
+  if (!m.has_mesh() || m.mesh().base_cell_m() == 0)
+    check.problem("mesh.base_cell_m", "is missing", "give the edge of the coarsest cell in metres");
+  else
+    c.base_cell = check.number("mesh.base_cell_m", m.mesh().base_cell_m(), positive);
+  if (m.has_wave()) {
+    if (m.wave().has_regular()) read_regular(m.wave().regular(), c.dim, c.wave, check);
+    if (m.wave().kind_case() == v1::Wave::KIND_NOT_SET)
+      check.problem("wave", "says nothing", "write calm: {} or regular: with height_m and period_s");
+  }
+  read_zones(m.zones(), c.zones, check);
+  if (m.has_hull()) read_hull(m.hull(), c.dim, c.hull, check);
+  read_body(m, c.body, check);
+  read_time(m.time(), c.time, check);
+  read_numerics(m.numerics(), c.numerics, check);
+  read_cascade(m.cascade(), c.dim, c.stages, check);
+  read_outputs(m.outputs(), c.outputs, check);
+  if (!check.ok()) throw InputError("INVALID_CASE", check.take());
+  return c;
+}
+
+}  // namespace seaway::convert

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts of a case, each read by one function; private to server/convert.
+#pragma once
+
+#include <google/protobuf/repeated_field.h>
+
+#include <string>
+
+#include "core/sim/case.hpp"
+#include "seaway/v1/case.pb.h"
+#include "server/convert/checker.hpp"
+
+namespace seaway::convert {
+
+using Extent = google::protobuf::RepeatedField<double>;
+
+/// [lower, upper] pairs into two corners. In 2-D x must be left out.
+void read_box(const Extent& x, const Extent& y, const Extent& z, const std::string& path, int dim, Vec3& lower,
+              Vec3& upper, Checker& check);
+
+Vec3 read_vector(const v1::Vector& v);
+bool dof_exists(sim::Dof dof, int dim);
+
+void read_hull(const v1::Hull& message, int dim, sim::Hull& hull, Checker& check);
+void read_body(const v1::Case& message, sim::Body& body, Checker& check);
+void read_cascade(const v1::Cascade& message, int dim, std::vector<sim::Stage>& stages, Checker& check);
+
+}  // namespace seaway::convert

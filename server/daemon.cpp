@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/daemon.hpp"
+
+#include <pthread.h>
+#include <signal.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+
+#include "core/base/error.hpp"
+#include "core/base/version.hpp"
+#include "proto/yaml.hpp"
+#include "server/config.hpp"
+
+namespace seaway::server {
+namespace {
+
+constexpr unsigned longest_drain_s = 9;
+
+std::shared_ptr<spdlog::logger> make_log(const Settings& settings) {
+  std::shared_ptr<spdlog::sinks::sink> sink;
+  if (settings.log_file.empty())
+    sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+  else
+    sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(settings.log_file);
+  auto log = std::make_shared<spdlog::logger>("seawayd", std::move(sink));
+  log->set_level(spdlog::level::from_str(settings.log_level));
+  log->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z level=%l %v");
+  log->flush_on(spdlog::level::info);
+  return log;
+}
+
+void write_address(const std::string& file, const std::string& address) {
+  const std::string aside = file + ".new";
+  std::ofstream(aside) << address << "\n";
+  if (std::rename(aside.c_str(), file.c_str()) != 0) fail(ErrorCode::unavailable, "cannot write {}", file);
+}
+
+int wait_for_signal() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int s : {SIGTERM, SIGINT}) sigaddset(&set, s);
+  int signal = 0;
+  while (sigwait(&set, &signal) != 0) {
+  }
+  return signal;
+}
+
+/// Ends the process if winding up takes too long: what runs is in the store, and the next start recovers it.
+std::jthread watch_the_clock(const std::shared_ptr<spdlog::logger>& log) {
+  return std::jthread([log](std::stop_token stop) {
+    std::mutex mutex;
+    std::condition_variable_any wake;
+    std::unique_lock lock(mutex);
+    wake.wait_for(lock, stop, std::chrono::seconds(longest_drain_s), [] { return false; });
+    if (stop.stop_requested()) return;
+    log->warn("event=drain_too_long text=\"ending; the running jobs go on from their last checkpoint\"");
+    log->flush();
+    ::_exit(0);
+  });
+}
+
+void serve(const Settings& settings, const std::string& address_file, const jobs::Solver& solver,
+           const std::shared_ptr<spdlog::logger>& log) {
+  jobs::Workspace workspace(settings.data_dir);
+  store::SqliteOptions options;
+  options.path = settings.data_dir + "/seaway.db";
+  options.commit_interval = std::chrono::milliseconds(settings.commit_interval_ms);
+  options.warn = [log](const std::string& text) { log->warn("event=store text=\"{}\"", text); };
+  const auto store = store::open_sqlite_store(std::move(options));
+  const store::Recovery recovery = store->recover(settings.max_stalled_attempts);
+  for (const auto& uid : recovery.requeued) log->info("job={} event=recovered state=QUEUED", uid);
+  for (const auto& uid : recovery.cancelled) log->info("job={} event=recovered state=CANCELLED", uid);
+  for (const auto& uid : recovery.failed) log->warn("job={} event=recovered state=FAILED", uid);
+  jobs::WorkerPool pool(settings.pool, solver, workspace, *store, log);
+  jobs::Queue queue(settings.limits, solver, workspace, *store, [&pool] { pool.wake(); },
+                    [&pool](const std::string& uid) { pool.request_stop(uid); });
+  rpc::Server server(settings.rpc, queue, *store);
+  if (!address_file.empty()) write_address(address_file, server.address());
+  log->info("event=listening address={} data_dir={} workers={} threads={} version={}", server.address(),
+            settings.data_dir, settings.pool.workers, settings.pool.run.threads, code_version());
+  const int signal = wait_for_signal();
+  log->info("event=stopping signal={}", signal);
+  const std::jthread clock = watch_the_clock(log);
+  std::jthread draining([&pool] { pool.drain(); });
+  server.shutdown();
+  draining.join();
+  store->flush();
+  log->info("event=stopped");
+}
+
+}  // namespace
+
+void block_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int s : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&set, s);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  ::signal(SIGPIPE, SIG_IGN);
+}
+
+int run_daemon(int argc, char** argv, const jobs::Solver& solver) {
+  block_signals();
+  CLI::App app{"seawayd: runs simulations of ships in waves and keeps their results", "seawayd"};
+  Flags flags;
+  std::string address_file;
+  app.add_option("-c,--config", flags.config_file, "configuration file (YAML; see seaway/v1/server_config.proto)");
+  app.add_option("--data-dir", flags.data_dir, "folder of database, files and runs");
+  app.add_option("--listen", flags.listen, "loopback address or unix:/path");
+  app.add_option("--port", flags.port, "0: any free port");
+  app.add_option("--log-level", flags.log_level, "trace, debug, info, warn, error");
+  app.add_option("--address-file", address_file, "written with the address once the server listens");
+  app.set_version_flag("--version", std::string(code_version()));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    const Settings settings = load_settings(flags);
+    const auto log = make_log(settings);
+    try {
+      serve(settings, address_file, solver, log);
+      return 0;
+    } catch (const Error& error) {
+      log->error("event=failed text=\"{}\"", error.what());
+      return error.code() == ErrorCode::invalid_argument ? 2 : 1;
+    }
+  } catch (const yaml::InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "seawayd: %s\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace seaway::server

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/jobs/queue.hpp"
+
+#include <algorithm>
+#include <array>
+#include <random>
+
+#include "core/base/error.hpp"
+#include "core/base/version.hpp"
+#include "server/convert/input_error.hpp"
+#include "server/convert/result.hpp"
+
+namespace seaway::jobs {
+namespace {
+
+using store::Reason;
+using store::State;
+
+[[noreturn]] void refuse(const std::string& reason, const std::string& field, const std::string& message,
+                         const std::string& hint) {
+  throw convert::InputError(reason, {{sim::Diagnostic::Severity::error, field, message, hint}});
+}
+
+bool is_uuid(const std::string& text) {
+  if (text.size() != 36) return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool dash = i == 8 || i == 13 || i == 18 || i == 23;
+    const char c = text[i];
+    const bool hex = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+    if (dash ? c != '-' : !hex) return false;
+  }
+  return true;
+}
+
+std::string lower(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+/// The known job if it was made from the same case.
+Submitted same_job(store::Job job, const std::string& spec, const std::string& digest) {
+  if (job.digest != digest) {
+    std::vector<sim::Diagnostic> problems;
+    for (const std::string& field : differing_fields(job.spec, spec))
+      problems.push_back({sim::Diagnostic::Severity::error, field, "differs from job " + job.uid,
+                          "a request id belongs to one case: use a new one"});
+    if (problems.empty()) problems.push_back({sim::Diagnostic::Severity::error, "request_id", "is in use by job " + job.uid, ""});
+    throw convert::InputError("REQUEST_ID_REUSED", std::move(problems));
+  }
+  Submitted out;
+  out.has_job = true;
+  out.job = std::move(job);
+  return out;
+}
+
+}  // namespace
+
+std::string new_uid() {
+  static constexpr std::string_view letters = "abcdefghijkmnpqrstuvwxyz23456789";  // 32, none alike
+  std::random_device random;
+  std::string uid;
+  for (int i = 0; i < 10; ++i) uid += letters[random() % letters.size()];
+  return uid;
+}
+
+bool is_uid(const std::string& text) {
+  return !text.empty() && text.size() <= 63 && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+  });
+}
+
+Queue::Queue(QueueLimits limits, Solver solver, const Workspace& workspace, store::JobStore& store,
+             std::function<void()> wake, std::function<void(const std::string&)> stop)
+    : limits_(limits), solver_(std::move(solver)), workspace_(workspace), store_(store), wake_(std::move(wake)),
+      stop_(std::move(stop)) {}
+
+Submitted Queue::submit(const v1::CreateJobRequest& request) {
+  if (!request.has_case_()) refuse("INVALID_REQUEST", "case", "is missing", "send the case to run");
+  Submitted out;
+  if (!request.validate_only() && !is_uuid(request.request_id()))
+    refuse("INVALID_REQUEST", "request_id", request.request_id().empty() ? "is missing" : "is not a UUID",
+           "make a new UUID for each submit and send the same one again after a lost answer");
+  Checked checked = check_case(request.case_(), request.files(), workspace_, solver_);
+  out.report = std::move(checked.report);
+  if (request.validate_only()) return out;
+  if (!out.report.ok()) {
+    std::vector<sim::Diagnostic> problems;
+    for (const v1::Diagnostic& d : out.report.diagnostics())
+      if (d.severity() == v1::Diagnostic::SEVERITY_ERROR)
+        problems.push_back({sim::Diagnostic::Severity::error, d.field(), d.message(), d.hint()});
+    throw convert::InputError("INVALID_CASE", std::move(problems));
+  }
+  double cpu_s = 0;
+  for (const v1::StageEstimate& stage : out.report.stages()) cpu_s += stage.cpu_s();
+  if (limits_.job_cpu_s > 0 && cpu_s > limits_.job_cpu_s)
+    fail(ErrorCode::resource_exhausted, "the case needs about {:.0f} CPU seconds, allowed are {:.0f}; use larger cells or fewer periods",
+         cpu_s, limits_.job_cpu_s);
+  store::NewJob job;
+  job.uid = new_uid();
+  job.request_id = lower(request.request_id());
+  job.title = request.case_().title();
+  job.spec = encode_spec(request.case_(), request.files());
+  job.digest = sha256_hex(job.spec);
+  job.code_version = code_version();
+  store::Created created = store_.create_limited(job, limits_.queued_jobs);
+  if (created.existed) {
+    Submitted known = same_job(std::move(created.job), job.spec, job.digest);
+    known.report = std::move(out.report);
+    return known;
+  }
+  wake_();
+  out.has_job = true;
+  out.job = std::move(created.job);
+  return out;
+}
+
+v1::CaseReport Queue::validate(const v1::Case& message, const Files& files) const {
+  return check_case(message, files, workspace_, solver_).report;
+}
+
+store::Job Queue::cancel(const std::string& uid) {
+  for (;;) {
+    const auto job = store_.find(uid);
+    if (!job) fail(ErrorCode::not_found, "job {} does not exist", uid);
+    switch (job->state) {
+      case State::queued:
+      case State::held:
+        if (auto moved = store_.move(uid, job->state, State::cancelled, Reason::user, "")) return *moved;
+        break;  // a worker was faster: look again
+      case State::running:
+        if (auto moved = store_.move(uid, State::running, State::cancelling, Reason::user, "")) {
+          stop_(uid);
+          return *moved;
+        }
+        break;
+      case State::cancelling: stop_(uid); return *job;
+      case State::cancelled: return *job;
+      case State::succeeded:
+      case State::failed:
+        fail(ErrorCode::failed_precondition, "job {} has ended ({}); it cannot be cancelled any more", uid,
+             store::to_string(job->state));
+    }
+  }
+}
+
+void Queue::erase(const std::string& uid) {
+  if (!store_.erase(uid)) fail(ErrorCode::failed_precondition, "job {} has not ended; cancel it first", uid);
+  workspace_.remove_run(uid);
+}
+
+}  // namespace seaway::jobs

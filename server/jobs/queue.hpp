@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What clients may do to jobs: submit, cancel, delete. The order itself lives in the store. Safe from any
+// thread; every function may block on the disk.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "server/jobs/submission.hpp"
+#include "server/store/job_store.hpp"
+
+namespace seaway::jobs {
+
+struct QueueLimits {
+  int queued_jobs = 10000;
+  double job_cpu_s = 0;  ///< 0: no limit
+};
+
+struct Submitted {
+  bool has_job = false;  ///< false after validate_only
+  store::Job job;
+  v1::CaseReport report;
+};
+
+class Queue {
+ public:
+  /// `wake`: a job was queued. `stop`: a running job shall end.
+  Queue(QueueLimits limits, Solver solver, const Workspace& workspace, store::JobStore& store,
+        std::function<void()> wake, std::function<void(const std::string& uid)> stop);
+
+  /// Durable when it returns. Throws convert::InputError for a wrong case, a malformed request id, or a known
+  /// one with another case (naming the fields); resource_exhausted when a limit is reached.
+  Submitted submit(const v1::CreateJobRequest& request);
+  v1::CaseReport validate(const v1::Case& message, const Files& files) const;
+  /// Throws not_found, and failed_precondition if the job has ended otherwise.
+  store::Job cancel(const std::string& uid);
+  /// Throws not_found, and failed_precondition if the job has not ended.
+  void erase(const std::string& uid);
+
+ private:
+  const QueueLimits limits_;
+  const Solver solver_;
+  const Workspace& workspace_;
+  store::JobStore& store_;
+  const std::function<void()> wake_;
+  const std::function<void(const std::string&)> stop_;
+};
+
+/// Ten random letters and digits.
+std::string new_uid();
+bool is_uid(const std::string& text);
+
+}  // namespace seaway::jobs

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/jobs/runner.hpp"
+
+#include <new>
+
+#include "core/base/error.hpp"
+#include "server/jobs/store_observer.hpp"
+#include "server/jobs/submission.hpp"
+
+namespace seaway::jobs {
+namespace {
+
+store::Reason reason_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::invalid_argument:
+    case ErrorCode::not_found:
+    case ErrorCode::failed_precondition: return store::Reason::invalid_input;
+    case ErrorCode::unavailable: return store::Reason::disk_full;
+    case ErrorCode::resource_exhausted: return store::Reason::memory;
+    case ErrorCode::data_loss: return store::Reason::checkpoint_lost;
+    case ErrorCode::diverged: return store::Reason::diverged;
+    case ErrorCode::internal: return store::Reason::internal;
+  }
+  return store::Reason::internal;
+}
+
+RunResult to_result(const sim::RunOutcome& outcome) {
+  switch (outcome.reason) {
+    case sim::StopReason::finished: return {RunResult::End::finished, store::Reason::none, outcome.message};
+    case sim::StopReason::cancelled: return {RunResult::End::stopped, store::Reason::none, outcome.message};
+    case sim::StopReason::diverged: return {RunResult::End::failed, store::Reason::diverged, outcome.message};
+  }
+  return {RunResult::End::failed, store::Reason::internal, "the solver gave no reason"};
+}
+
+}  // namespace
+
+RunResult run_job(const store::Job& job, const Solver& solver, const Workspace& workspace, store::JobStore& store,
+                  const RunSettings& settings, std::stop_token stop, std::shared_ptr<spdlog::logger> log) {
+  try {
+    const v1::CreateJobRequest spec = decode_spec(job.spec);
+    const sim::Case core = bind_case(spec.case_(), spec.files(), workspace);
+    const std::string folder = workspace.run_folder(job.uid);
+    for (const std::string& name : workspace.prepare_run(job.uid, store.checkpoints(job.uid), store.artifacts(job.uid)))
+      log->warn("job={} event=removed_unrecorded file={}", job.uid, name);
+    StoreObserver observer(job.uid, job.last_sequence, folder, store, log);
+    sim::RunOptions options;
+    options.folder = folder;
+    options.checkpoint_interval = settings.checkpoint_interval_s;
+    options.case_digest = job.digest;
+    RunResult result;
+    try {
+      result = to_result(solver.run(core, options, observer, RunContext{log, std::move(stop), settings.threads}));
+    } catch (...) {
+      observer.finish();
+      throw;
+    }
+    observer.finish();
+    return result;
+  } catch (const Error& error) {
+    return {RunResult::End::failed, reason_of(error.code()), error.what()};
+  } catch (const std::bad_alloc&) {
+    return {RunResult::End::failed, store::Reason::memory, "out of memory; use larger cells or a machine with more"};
+  } catch (const std::exception& error) {
+    return {RunResult::End::failed, store::Reason::internal, error.what()};
+  }
+}
+
+}  // namespace seaway::jobs

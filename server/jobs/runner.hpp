@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One attempt at one job: from its stored case through the solver into the store. Runs in the caller's thread.
+#pragma once
+
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include <spdlog/logger.h>
+
+#include "server/jobs/solver.hpp"
+#include "server/jobs/workspace.hpp"
+#include "server/store/job_store.hpp"
+
+namespace seaway::jobs {
+
+struct RunSettings {
+  int threads = 1;
+  double checkpoint_interval_s = 60;
+};
+
+/// How an attempt ended; the caller moves the job accordingly.
+struct RunResult {
+  enum class End { finished, stopped, failed };
+  End end = End::failed;
+  store::Reason reason = store::Reason::none;  ///< failed
+  std::string message;
+};
+
+/// Never throws. Before it returns all data of the attempt was handed to the store (not yet flushed).
+RunResult run_job(const store::Job& job, const Solver& solver, const Workspace& workspace, store::JobStore& store,
+                  const RunSettings& settings, std::stop_token stop, std::shared_ptr<spdlog::logger> log);
+
+}  // namespace seaway::jobs

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/jobs/store_observer.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/base/error.hpp"
+#include "server/convert/result.hpp"
+#include "server/jobs/workspace.hpp"
+
+namespace seaway::jobs {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::chrono::milliseconds gather{50};
+constexpr std::chrono::milliseconds progress_interval{250};
+
+store::Progress to_row(const sim::Progress& p) {
+  return {p.stage, p.stage_count, p.time, p.fraction, p.remaining_s, p.held};
+}
+
+bool is_plain_name(const std::string& name) {
+  return !name.empty() && name.size() <= 100 && name.front() != '.' &&
+         std::all_of(name.begin(), name.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+                  c == '.';
+         });
+}
+
+}  // namespace
+
+StoreObserver::StoreObserver(std::string uid, std::int64_t last_sequence, std::string folder, store::JobStore& store,
+                             std::shared_ptr<spdlog::logger> log)
+    : uid_(std::move(uid)), folder_(std::move(folder)), store_(store), log_(std::move(log)), next_(last_sequence + 1) {}
+
+void StoreObserver::on_channels(const std::vector<sim::Channel>& channels) {
+  std::vector<store::Channel> rows;
+  for (const sim::Channel& c : channels) rows.push_back({c.name, c.unit});
+  if (next_ > 1 && store_.channels(uid_) != rows)
+    fail(ErrorCode::data_loss, "the run has other channels than its stored history; submit the case as a new job");
+  store_.set_channels(uid_, std::move(rows));
+}
+
+void StoreObserver::on_stage_started(const sim::StageInfo& info) {
+  hand_over();
+  store_.put_stage(uid_, {info.stage, convert::to_proto(info).SerializeAsString()});
+  log_->info("job={} stage={} name={} event=stage_started cells={} levels={} h={} dt={}", uid_, info.stage, info.name,
+             info.cells, info.levels, info.finest_cell, info.dt);
+}
+
+void StoreObserver::on_sample(const sim::Sample& s) {
+  if (s.sequence > next_)
+    fail(ErrorCode::data_loss, "sample {} came, {} was due: the run went on from a checkpoint that is newer than the "
+         "stored history", s.sequence, next_);
+  next_ = std::max(next_, s.sequence + 1);
+  samples_.push_back({s.sequence, s.stage, s.step, s.time, s.values});
+  if (samples_.size() >= 256 || Clock::now() - handed_over_ >= gather) hand_over();
+}
+
+void StoreObserver::on_progress(const sim::Progress& progress) {
+  const bool turned = progress.stage != progress_.stage || progress.held != progress_.held;
+  progress_ = progress;
+  progress_waits_ = true;
+  if (!turned && Clock::now() - progress_sent_ < progress_interval) return;
+  hand_over();
+}
+
+void StoreObserver::on_stage_finished(const sim::StageResult& result) {
+  hand_over();
+  store_.put_stage(uid_, {result.info.stage, convert::to_proto(result).SerializeAsString()});
+  log_->info("job={} stage={} event=stage_finished steps={} cpu_s={:.2f} converged={}", uid_, result.info.stage,
+             result.steps, result.cpu_s, result.converged);
+}
+
+void StoreObserver::on_checkpoint(const std::string& path, std::int64_t sequence) {
+  hand_over();
+  store_.add_checkpoint(uid_, describe_checkpoint(path, sequence));
+  log_->debug("job={} event=checkpoint sequence={}", uid_, sequence);
+}
+
+void StoreObserver::on_artifact(const std::string& name, const std::string& path, const std::string& media_type) {
+  hand_over();
+  const fs::path absolute = fs::absolute(path).lexically_normal();
+  const fs::path relative = absolute.lexically_relative(folder_);
+  std::error_code error;
+  const auto size = fs::file_size(absolute, error);
+  if (!is_plain_name(name) || relative.empty() || *relative.begin() == ".." || error)
+    fail(ErrorCode::internal, "artifact '{}' at {} is not a file of this run", name, path);
+  store_.add_artifact(uid_, {name, absolute.string(), media_type, static_cast<std::int64_t>(size), 0});
+}
+
+void StoreObserver::on_event(const std::string& kind, const std::string& text) {
+  hand_over();
+  store_.add_event(uid_, kind, text);
+  log_->info("job={} event={} text=\"{}\"", uid_, kind, text);
+}
+
+void StoreObserver::finish() { hand_over(); }
+
+void StoreObserver::hand_over() {
+  handed_over_ = Clock::now();
+  if (!samples_.empty()) store_.add_samples(uid_, std::move(samples_));
+  samples_.clear();
+  if (!progress_waits_) return;
+  progress_waits_ = false;
+  progress_sent_ = handed_over_;
+  store_.set_progress(uid_, to_row(progress_));
+}
+
+}  // namespace seaway::jobs

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writes what a run reports into the store. Samples are gathered for a moment so that a fast solver does not
+// cost a write each; everything else goes behind the samples before it, so the order of the run is kept.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <spdlog/logger.h>
+
+#include "core/sim/run_observer.hpp"
+#include "server/store/job_store.hpp"
+
+namespace seaway::jobs {
+
+class StoreObserver final : public sim::RunObserver {
+ public:
+  /// `last_sequence`: of the stored history; samples up to it may come again, later ones must follow.
+  /// `folder`: artifacts outside it are refused.
+  StoreObserver(std::string uid, std::int64_t last_sequence, std::string folder, store::JobStore& store,
+                std::shared_ptr<spdlog::logger> log);
+
+  void on_channels(const std::vector<sim::Channel>& channels) override;
+  void on_stage_started(const sim::StageInfo& info) override;
+  void on_sample(const sim::Sample& sample) override;
+  void on_progress(const sim::Progress& progress) override;
+  void on_stage_finished(const sim::StageResult& result) override;
+  void on_checkpoint(const std::string& path, std::int64_t sequence) override;
+  void on_artifact(const std::string& name, const std::string& path, const std::string& media_type) override;
+  void on_event(const std::string& kind, const std::string& text) override;
+  /// Hands over what was gathered.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void hand_over();
+
+  const std::string uid_, folder_;
+  store::JobStore& store_;
+  const std::shared_ptr<spdlog::logger> log_;
+  std::int64_t next_;  ///< largest sequence number that may come
+  std::vector<store::Sample> samples_;
+  Clock::time_point handed_over_{};
+  sim::Progress progress_;
+  bool progress_waits_ = false;
+  Clock::time_point progress_sent_{};
+};
+
+}  // namespace seaway::jobs

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/jobs/worker_pool.hpp"
+
+#include "core/base/error.hpp"
+
+namespace seaway::jobs {
+
+using store::Reason;
+using store::State;
+
+WorkerPool::WorkerPool(PoolSettings settings, Solver solver, const Workspace& workspace, store::JobStore& store,
+                       std::shared_ptr<spdlog::logger> log)
+    : settings_(settings), solver_(std::move(solver)), workspace_(workspace), store_(store), log_(std::move(log)) {
+  for (int i = 0; i < settings_.workers; ++i) threads_.emplace_back([this] { work(); });
+}
+
+WorkerPool::~WorkerPool() { drain(); }
+
+void WorkerPool::wake() {
+  {
+    const std::lock_guard lock(mutex_);
+    work_may_wait_ = true;
+  }
+  wake_.notify_all();
+}
+
+void WorkerPool::request_stop(const std::string& uid) {
+  const std::lock_guard lock(mutex_);
+  if (const auto run = running_.find(uid); run != running_.end()) run->second.request_stop();
+}
+
+void WorkerPool::drain() {
+  {
+    const std::lock_guard lock(mutex_);
+    draining_ = true;
+    for (auto& [uid, stop] : running_) stop.request_stop();
+  }
+  wake_.notify_all();
+  threads_.clear();  // joins
+}
+
+void WorkerPool::work() {
+  for (;;) {
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [&] { return draining_ || work_may_wait_; });
+      if (draining_) return;
+      work_may_wait_ = false;
+    }
+    try {
+      const auto job = store_.take_next();
+      if (!job) continue;
+      wake();  // there may be another one for another thread
+      run_one(*job);
+    } catch (const std::exception& error) {
+      log_->error("event=worker_error text=\"{}\"", error.what());
+      std::unique_lock lock(mutex_);
+      wake_.wait_for(lock, std::chrono::seconds(1), [&] { return draining_; });
+      work_may_wait_ = true;
+    }
+  }
+}
+
+void WorkerPool::run_one(const store::Job& job) {
+  std::stop_source stop;
+  {
+    const std::lock_guard lock(mutex_);
+    running_[job.uid] = stop;
+    if (draining_) stop.request_stop();
+  }
+  // A cancellation between take_next() and here has found nobody to tell.
+  if (const auto now = store_.find(job.uid); now && now->state == State::cancelling) stop.request_stop();
+  log_->info("job={} event=started attempt={} after_sequence={}", job.uid, job.attempt, job.last_sequence);
+  const RunResult result = run_job(job, solver_, workspace_, store_, settings_.run, stop.get_token(), log_);
+  {
+    const std::lock_guard lock(mutex_);
+    running_.erase(job.uid);
+  }
+  end_job(job.uid, result);
+}
+
+void WorkerPool::end_job(const std::string& uid, const RunResult& result) {
+  for (;;) {
+    try {
+      if (!try_end(uid, result)) log_->error("job={} event=lost text=\"not running any more\"", uid);
+      return;
+    } catch (const std::exception& error) {
+      log_->error("job={} event=end_not_stored text=\"{}\"", uid, error.what());
+    }
+    // The disk refuses: try until it takes the move, or leave it to the recovery of the next start.
+    std::unique_lock lock(mutex_);
+    if (wake_.wait_for(lock, std::chrono::seconds(1), [&] { return draining_; })) return;
+  }
+}
+
+bool WorkerPool::try_end(const std::string& uid, const RunResult& result) {
+  const auto move = [&](State from, State to, Reason reason, const std::string& message) {
+    const auto moved = store_.move(uid, from, to, reason, message);
+    if (moved)
+      log_->info("job={} event=ended state={} reason={} samples={} text=\"{}\"", uid, store::to_string(to),
+                 store::to_string(reason), moved->last_sequence, message);
+    return moved.has_value();
+  };
+  switch (result.end) {
+    case RunResult::End::finished:
+      return move(State::running, State::succeeded, Reason::none, result.message) ||
+             move(State::cancelling, State::succeeded, Reason::none, "the run had ended before it was cancelled");
+    case RunResult::End::stopped:
+      // A cancelled job is CANCELLING before its run is asked to stop, so RUNNING here means a drain.
+      return move(State::cancelling, State::cancelled, Reason::user, "") ||
+             move(State::running, State::queued, Reason::server_drain, "");
+    case RunResult::End::failed:
+      return move(State::running, State::failed, result.reason, result.message) ||
+             move(State::cancelling, State::failed, result.reason, result.message);
+  }
+  return false;
+}
+
+}  // namespace seaway::jobs

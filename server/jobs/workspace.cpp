@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/jobs/workspace.hpp"
+
+#include <fcntl.h>
+#include <openssl/sha.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "core/base/error.hpp"
+
+namespace seaway::jobs {
+namespace {
+
+namespace fs = std::filesystem;
+
+void sync_folder(const std::string& folder) {
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) fail(ErrorCode::unavailable, "{}: {}", folder.string(), error.message());
+}
+
+bool is_known(const fs::path& file, const std::vector<store::Checkpoint>& checkpoints,
+              const std::vector<store::Artifact>& artifacts) {
+  for (const store::Artifact& a : artifacts)
+    if (file == a.path) return true;
+  for (const store::Checkpoint& c : checkpoints) {
+    if (file != c.path) continue;
+    struct stat info {};
+    if (::lstat(c.path.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return false;
+    return info.st_size == c.size && info.st_ino == c.inode &&
+           info.st_mtim.tv_sec * 1'000'000'000 + info.st_mtim.tv_nsec == c.mtime_ns;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string sha256_hex(std::string_view bytes) {
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
+  SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), digest.data());
+  std::string out;
+  for (const unsigned char byte : digest) out += fmt::format("{:02x}", byte);
+  return out;
+}
+
+Workspace::Workspace(std::string data_dir) : data_dir_(fs::absolute(std::move(data_dir)).lexically_normal().string()) {
+  make_folder(fs::path(data_dir_) / "files");
+  make_folder(fs::path(data_dir_) / "jobs");
+}
+
+std::string Workspace::keep_file(std::string_view content) const {
+  const std::string folder = data_dir_ + "/files";
+  const std::string path = folder + "/" + sha256_hex(content);
+  if (fs::exists(path)) return path;
+  std::string aside = path + ".XXXXXX";
+  const int fd = ::mkostemp(aside.data(), O_CLOEXEC);
+  if (fd < 0) fail(ErrorCode::unavailable, "{}: {}", aside, std::strerror(errno));
+  std::size_t at = 0;
+  bool ok = true;
+  while (ok && at < content.size()) {
+    const ssize_t n = ::write(fd, content.data() + at, content.size() - at);
+    if (n > 0)
+      at += static_cast<std::size_t>(n);
+    else
+      ok = n < 0 && errno == EINTR;
+  }
+  ok = ok && ::fsync(fd) == 0;
+  ::close(fd);
+  ok = ok && ::rename(aside.c_str(), path.c_str()) == 0;
+  if (!ok) {
+    const int why = errno;
+    ::unlink(aside.c_str());
+    fail(ErrorCode::unavailable, "{}: {}", path, std::strerror(why));
+  }
+  sync_folder(folder);
+  return path;
+}
+
+std::string Workspace::run_folder(const std::string& uid) const { return data_dir_ + "/jobs/" + uid; }
+
+std::vector<std::string> Workspace::prepare_run(const std::string& uid, const std::vector<store::Checkpoint>& checkpoints,
+                                                const std::vector<store::Artifact>& artifacts) const {
+  const fs::path folder = run_folder(uid);
+  make_folder(folder);
+  std::vector<fs::path> unknown;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (!entry.is_directory() && !is_known(entry.path(), checkpoints, artifacts)) unknown.push_back(entry.path());
+  std::vector<std::string> removed;
+  for (const fs::path& file : unknown) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) fail(ErrorCode::unavailable, "{}: {}", file.string(), error.message());
+    removed.push_back(file.lexically_relative(folder).string());
+  }
+  return removed;
+}
+
+void Workspace::remove_run(const std::string& uid) const {
+  std::error_code error;
+  fs::remove_all(run_folder(uid), error);
+}
+
+store::Checkpoint describe_checkpoint(const std::string& path, std::int64_t sequence) {
+  struct stat info {};
+  const std::string absolute = fs::absolute(path).lexically_normal().string();
+  if (::lstat(absolute.c_str(), &info) != 0) fail(ErrorCode::not_found, "checkpoint {}: {}", path, std::strerror(errno));
+  return {sequence, absolute, info.st_size, info.st_mtim.tv_sec * 1'000'000'000 + info.st_mtim.tv_nsec, info.st_ino};
+}
+
+}  // namespace seaway::jobs

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/rpc/messages.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "server/convert/input_error.hpp"
+#include "server/convert/result.hpp"
+#include "server/jobs/queue.hpp"
+
+namespace seaway::rpc {
+namespace {
+
+void put_time(std::int64_t ns, google::protobuf::Timestamp& out) {
+  out.set_seconds(ns / 1'000'000'000);
+  out.set_nanos(static_cast<std::int32_t>(ns % 1'000'000'000));
+}
+
+unsigned filter_key(const std::vector<store::State>& states) {
+  unsigned key = 0;
+  for (const store::State s : states) key |= 1u << static_cast<unsigned>(s);
+  return key;
+}
+
+}  // namespace
+
+v1::Progress to_proto(const store::Progress& p) {
+  return convert::to_proto(sim::Progress{p.stage, p.stage_count, p.time, p.fraction, p.remaining_s, p.held});
+}
+
+v1::Job to_proto(const store::Job& job) {
+  v1::Job m;
+  m.set_name("jobs/" + job.uid);
+  m.set_uid(job.uid);
+  m.set_title(job.title);
+  m.set_state(static_cast<v1::Job::State>(job.state));
+  m.set_state_reason(static_cast<v1::Job::Reason>(job.reason));
+  m.set_state_message(job.message);
+  *m.mutable_progress() = to_proto(job.progress);
+  m.set_attempt(job.attempt);
+  put_time(job.created_ns, *m.mutable_create_time());
+  if (job.started_ns > 0) put_time(job.started_ns, *m.mutable_start_time());
+  if (job.ended_ns > 0) put_time(job.ended_ns, *m.mutable_end_time());
+  put_time(job.updated_ns, *m.mutable_update_time());
+  m.set_spec_digest(job.digest);
+  m.set_code_version(job.code_version);
+  m.set_latest_sequence(job.last_sequence);
+  m.set_checkpoint_sequence(job.checkpoint_sequence);
+  return m;
+}
+
+v1::JobEvent to_proto(const store::Event& event) {
+  v1::JobEvent m;
+  m.set_revision(event.revision);
+  put_time(event.time_ns, *m.mutable_time());
+  m.set_attempt(event.attempt);
+  m.set_kind(event.kind);
+  m.set_text(event.text);
+  return m;
+}
+
+v1::Artifact to_proto(const store::Artifact& artifact) {
+  v1::Artifact m;
+  m.set_name(artifact.name);
+  m.set_media_type(artifact.media_type);
+  m.set_size_bytes(artifact.size);
+  put_time(artifact.created_ns, *m.mutable_create_time());
+  return m;
+}
+
+google::protobuf::RepeatedPtrField<v1::ChannelSchema> to_proto(const std::vector<store::Channel>& channels) {
+  google::protobuf::RepeatedPtrField<v1::ChannelSchema> out;
+  for (const store::Channel& c : channels) *out.Add() = convert::to_proto(sim::Channel{c.name, c.unit});
+  return out;
+}
+
+v1::SampleChunk to_proto(const std::vector<store::Sample>& samples, const std::vector<store::Channel>& channels) {
+  v1::SampleChunk chunk;
+  if (samples.empty()) return chunk;
+  const auto n = static_cast<int>(samples.size());
+  chunk.set_first_sequence(samples.front().sequence);
+  chunk.mutable_stages()->Reserve(n);
+  chunk.mutable_steps()->Reserve(n);
+  chunk.mutable_times_s()->Reserve(n);
+  for (const store::Sample& s : samples) {
+    chunk.add_stages(s.stage);
+    chunk.add_steps(s.step);
+    chunk.add_times_s(s.time);
+  }
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    auto& values = *chunk.add_columns()->mutable_values();
+    values.Reserve(n);
+    for (const store::Sample& s : samples) values.Add(convert::edge_value(channels[c].unit, s.values.at(c)));
+  }
+  return chunk;
+}
+
+void refuse_field(const std::string& field, const std::string& message, const std::string& hint) {
+  throw convert::InputError("INVALID_REQUEST", {{sim::Diagnostic::Severity::error, field, message, hint}});
+}
+
+std::string parse_job_name(const std::string& name, const std::string& field) {
+  if (!name.starts_with("jobs/") || !jobs::is_uid(name.substr(5)))
+    refuse_field(field, name.empty() ? "is missing" : "is not the name of a job", "write jobs/ and the uid");
+  return name.substr(5);
+}
+
+std::string make_page_token(std::int64_t before_id, const std::vector<store::State>& states) {
+  return fmt::format("{:x}-{:x}", before_id, filter_key(states));
+}
+
+std::int64_t parse_page_token(const std::string& token, const std::vector<store::State>& states) {
+  if (token.empty()) return 0;
+  std::int64_t id = 0;
+  unsigned key = 0;
+  const char* end = token.data() + token.size();
+  const auto first = std::from_chars(token.data(), end, id, 16);
+  const bool dash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '-';
+  const auto second = dash ? std::from_chars(first.ptr + 1, end, key, 16) : first;
+  if (!dash || second.ec != std::errc{} || second.ptr != end || id <= 0 || key != filter_key(states))
+    refuse_field("page_token", "does not belong to this list", "use next_page_token of the page before, with the same states");
+  return id;
+}
+
+}  // namespace seaway::rpc

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/rpc/server.hpp"
+
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/resource_quota.h>
+#include <grpcpp/server.h>
+#include <grpcpp/server_builder.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "core/base/error.hpp"
+#include "server/rpc/services.hpp"
+
+namespace seaway::rpc {
+namespace {
+
+constexpr int max_message_bytes = 8 << 20;
+
+bool is_local(const std::string& address) {
+  return address == "localhost" || address == "::1" || address == "[::1]" || address.starts_with("127.") ||
+         address.starts_with("unix:");
+}
+
+void set_keepalive(grpc::ServerBuilder& builder) {
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 20'000);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);  // a second server on the port is a mistake
+}
+
+}  // namespace
+
+struct Server::Parts {
+  Parts(const ServerSettings& s, jobs::Queue& queue, store::JobStore& store)
+      : work(s.work_threads, 4096),
+        feeds(store),
+        jobs(Backend{queue, store, feeds, registry, work, s.max_calls, s.streams}),
+        telemetry(Backend{queue, store, feeds, registry, work, s.max_calls, s.streams}),
+        stages(Backend{queue, store, feeds, registry, work, s.max_calls, s.streams}),
+        artifacts(Backend{queue, store, feeds, registry, work, s.max_calls, s.streams}),
+        cases(Backend{queue, store, feeds, registry, work, s.max_calls, s.streams}) {}
+
+  void tick_loop(std::stop_token stop) {
+    std::mutex mutex;
+    std::condition_variable_any wake;
+    std::unique_lock lock(mutex);
+    while (!wake.wait_for(lock, stop, std::chrono::seconds(1), [] { return false; }) && !stop.stop_requested())
+      registry.tick_all(std::chrono::steady_clock::now());
+  }
+
+  Registry registry;
+  WorkQueue work;
+  Feeds feeds;
+  JobsService jobs;
+  TelemetryService telemetry;
+  StagesService stages;
+  ArtifactsService artifacts;
+  CasesService cases;
+  std::unique_ptr<grpc::Server> server;
+  std::jthread ticker;
+};
+
+Server::Server(const ServerSettings& settings, jobs::Queue& queue, store::JobStore& store)
+    : parts_(std::make_unique<Parts>(settings, queue, store)) {
+  if (!is_local(settings.address))
+    fail(ErrorCode::invalid_argument,
+         "listen.address {} is not local; the service has no access control yet: use 127.0.0.1 or unix:/path",
+         settings.address);
+  grpc::EnableDefaultHealthCheckService(true);
+  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  const bool is_unix = settings.address.starts_with("unix:");
+  const std::string host = settings.address == "::1" ? "[::1]" : settings.address;
+  grpc::ServerBuilder builder;
+  int port = 0;
+  builder.AddListeningPort(is_unix ? host : host + ":" + std::to_string(settings.port),
+                           grpc::InsecureServerCredentials(), &port);
+  builder.SetMaxReceiveMessageSize(max_message_bytes);
+  set_keepalive(builder);
+  grpc::ResourceQuota quota("seaway");
+  quota.Resize(std::size_t{512} << 20);
+  builder.SetResourceQuota(quota);
+  builder.RegisterService(&parts_->jobs);
+  builder.RegisterService(&parts_->telemetry);
+  builder.RegisterService(&parts_->stages);
+  builder.RegisterService(&parts_->artifacts);
+  builder.RegisterService(&parts_->cases);
+  parts_->server = builder.BuildAndStart();
+  if (parts_->server == nullptr || (!is_unix && port == 0))
+    fail(ErrorCode::unavailable, "cannot listen on {}{}; is another server running there?", host,
+         is_unix ? "" : ":" + std::to_string(settings.port));
+  address_ = is_unix ? host : host + ":" + std::to_string(port);
+  auto* health = parts_->server->GetHealthCheckService();
+  for (const char* name : {"seaway.v1.Jobs", "seaway.v1.Telemetry", "seaway.v1.Stages", "seaway.v1.Artifacts", "seaway.v1.Cases"})
+    health->SetServingStatus(name, true);
+  parts_->ticker = std::jthread([parts = parts_.get()](std::stop_token stop) { parts->tick_loop(std::move(stop)); });
+}
+
+Server::~Server() { shutdown(); }
+
+void Server::shutdown() {
+  if (parts_ == nullptr || parts_->server == nullptr) return;
+  parts_->server->GetHealthCheckService()->SetServingStatus(false);
+  parts_->registry.close_all(std::chrono::milliseconds(1500));
+  parts_->server->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(2));
+  parts_->ticker = {};
+  parts_->server.reset();
+}
+
+}  // namespace seaway::rpc

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The gRPC server: services, health, reflection, limits and an orderly end.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "server/jobs/queue.hpp"
+#include "server/rpc/stream_call.hpp"
+#include "server/store/job_store.hpp"
+
+namespace seaway::rpc {
+
+struct ServerSettings {
+  std::string address = "127.0.0.1";  ///< loopback, or unix:/path
+  int port = 0;                       ///< 0: any free one; unused with unix:
+  int max_calls = 1000;
+  int work_threads = 4;
+  StreamLimits streams;
+};
+
+class Server {
+ public:
+  /// Listens when it returns. Throws Error(unavailable) if the address cannot be used, invalid_argument if
+  /// it is not local: the service has no access control yet.
+  Server(const ServerSettings& settings, jobs::Queue& queue, store::JobStore& store);
+  /// Shuts down.
+  ~Server();
+  /// host:port, or unix:/path.
+  const std::string& address() const { return address_; }
+  /// Says NOT_SERVING, refuses new calls, finishes the live ones and stops; at most about five seconds.
+  void shutdown();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+  std::string address_;
+};
+
+}  // namespace seaway::rpc

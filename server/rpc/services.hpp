@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The methods of job_service.proto: take a request apart, ask queue or store, put the answer together.
+#pragma once
+
+#include "seaway/v1/job_service.grpc.pb.h"
+#include "server/jobs/queue.hpp"
+#include "server/rpc/feed.hpp"
+#include "server/rpc/registry.hpp"
+#include "server/rpc/stream_call.hpp"
+#include "server/rpc/work_queue.hpp"
+
+namespace seaway::rpc {
+
+/// What the services share; all outlive them.
+struct Backend {
+  jobs::Queue& queue;
+  store::JobStore& store;
+  Feeds& feeds;
+  Registry& registry;
+  WorkQueue& work;
+  int max_calls = 1000;  ///< live calls, streams included
+  StreamLimits streams;
+};
+
+class JobsService final : public v1::Jobs::CallbackService {
+ public:
+  explicit JobsService(Backend backend) : b_(backend) {}
+  grpc::ServerUnaryReactor* CreateJob(grpc::CallbackServerContext* context, const v1::CreateJobRequest* request,
+                                      v1::CreateJobResponse* response) override;
+  grpc::ServerUnaryReactor* GetJob(grpc::CallbackServerContext* context, const v1::GetJobRequest* request,
+                                   v1::Job* response) override;
+  grpc::ServerUnaryReactor* ListJobs(grpc::CallbackServerContext* context, const v1::ListJobsRequest* request,
+                                     v1::ListJobsResponse* response) override;
+  grpc::ServerUnaryReactor* CancelJob(grpc::CallbackServerContext* context, const v1::CancelJobRequest* request,
+                                      v1::Job* response) override;
+  grpc::ServerUnaryReactor* DeleteJob(grpc::CallbackServerContext* context, const v1::DeleteJobRequest* request,
+                                      v1::DeleteJobResponse* response) override;
+
+ private:
+  Backend b_;
+};
+
+class TelemetryService final : public v1::Telemetry::CallbackService {
+ public:
+  explicit TelemetryService(Backend backend) : b_(backend) {}
+  grpc::ServerWriteReactor<v1::WatchSamplesResponse>* WatchSamples(grpc::CallbackServerContext* context,
+                                                                   const v1::WatchSamplesRequest* request) override;
+  grpc::ServerUnaryReactor* ReadSamples(grpc::CallbackServerContext* context, const v1::ReadSamplesRequest* request,
+                                        v1::ReadSamplesResponse* response) override;
+
+ private:
+  Backend b_;
+};
+
+class StagesService final : public v1::Stages::CallbackService {
+ public:
+  explicit StagesService(Backend backend) : b_(backend) {}
+  grpc::ServerUnaryReactor* ListStages(grpc::CallbackServerContext* context, const v1::ListStagesRequest* request,
+                                       v1::ListStagesResponse* response) override;
+
+ private:
+  Backend b_;
+};
+
+class ArtifactsService final : public v1::Artifacts::CallbackService {
+ public:
+  explicit ArtifactsService(Backend backend) : b_(backend) {}
+  grpc::ServerUnaryReactor* ListArtifacts(grpc::CallbackServerContext* context, const v1::ListArtifactsRequest* request,
+                                          v1::ListArtifactsResponse* response) override;
+  grpc::ServerWriteReactor<v1::DownloadArtifactResponse>* DownloadArtifact(
+      grpc::CallbackServerContext* context, const v1::DownloadArtifactRequest* request) override;
+
+ private:
+  Backend b_;
+};
+
+class CasesService final : public v1::Cases::CallbackService {
+ public:
+  explicit CasesService(Backend backend) : b_(backend) {}
+  grpc::ServerUnaryReactor* ValidateCase(grpc::CallbackServerContext* context, const v1::ValidateCaseRequest* request,
+                                         v1::CaseReport* response) override;
+
+ private:
+  Backend b_;
+};
+
+}  // namespace seaway::rpc

@@ -1,0 +1,11 @@
+# Writes OUTPUT, a header with the text of the SQL files (INPUTS, separated by |) in order.
+string(REPLACE "|" ";" files "${INPUTS}")
+list(LENGTH files count)
+set(text "#pragma once\n#include <array>\n#include <string_view>\nnamespace seaway::store {\n")
+string(APPEND text "inline constexpr std::array<std::string_view, ${count}> schema_steps{{\n")
+foreach(file IN LISTS files)
+  file(READ ${file} sql)
+  string(APPEND text "R\"sql(${sql})sql\",\n")
+endforeach()
+string(APPEND text "}};\n}  // namespace seaway::store\n")
+file(WRITE ${OUTPUT} "${text}")

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where jobs live. The store is the only truth: what a reader sees here is durable, so what a client was
+// shown survives any crash of the server.
+//
+// Two kinds of writes. Moves of a job (create, take, move, ...) return when they are committed. The data
+// of a run (samples, stages, ...) is handed over without waiting, becomes durable together with all that
+// was handed over before it, within the commit interval, and only then visible.
+//
+// Every function is safe from any thread. Failures are Error: not_found, unavailable (the disk refused),
+// data_loss (what was read is damaged), failed_precondition.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "server/store/job.hpp"
+
+namespace seaway::store {
+
+struct ListQuery {
+  std::int64_t before_id = 0;  ///< only jobs created before this one; 0: from the newest
+  int limit = 50;
+  std::vector<State> states;   ///< empty: all
+};
+
+struct Created {
+  Job job;
+  bool existed = false;  ///< the request id was known; `job` is the old one, whatever its digest
+};
+
+struct Recovery {
+  std::vector<std::string> requeued, cancelled, failed;
+};
+
+class JobStore {
+ public:
+  virtual ~JobStore() = default;
+
+  // --- jobs ------------------------------------------------------------------------------------------
+  virtual Created create(const NewJob& job) = 0;
+  /// Refuses with resource_exhausted while `limit` or more jobs are queued; 0: no limit.
+  virtual Created create_limited(const NewJob& job, int limit) = 0;
+  virtual std::optional<Job> find(const std::string& uid) const = 0;
+  /// Newest first, without their spec.
+  virtual std::vector<Job> list(const ListQuery& query) const = 0;
+  /// The oldest queued job, now running with one attempt more; nothing if the queue is empty.
+  virtual std::optional<Job> take_next() = 0;
+  /// Moves the job if it is in state `from`; nothing if it is not (another was faster). Everything handed
+  /// over for the job before is durable too. Throws for moves that do not exist.
+  virtual std::optional<Job> move(const std::string& uid, State from, State to, Reason reason,
+                                  const std::string& message) = 0;
+  /// After a start: running jobs go back to the queue (or fail after `max_stalled` attempts in a row without
+  /// a new sample), cancelling ones are cancelled.
+  virtual Recovery recover(int max_stalled) = 0;
+  /// Removes an ended job and its data; false if it has not ended. Throws not_found.
+  virtual bool erase(const std::string& uid) = 0;
+
+  // --- the data of a run -----------------------------------------------------------------------------
+  virtual void set_channels(const std::string& uid, std::vector<Channel> channels) = 0;
+  /// Consecutive samples. Those that are stored already are compared with what is there: a difference is
+  /// recorded once as a REPLAY_MISMATCH event, and the stored ones stay.
+  virtual void add_samples(const std::string& uid, std::vector<Sample> samples) = 0;
+  virtual void set_progress(const std::string& uid, const Progress& progress) = 0;
+  virtual void put_stage(const std::string& uid, StageRow stage) = 0;
+  virtual void add_checkpoint(const std::string& uid, Checkpoint checkpoint) = 0;
+  virtual void add_artifact(const std::string& uid, Artifact artifact) = 0;
+  virtual void add_event(const std::string& uid, const std::string& kind, const std::string& text) = 0;
+  /// Returns when all that was handed over before is durable.
+  virtual void flush() = 0;
+
+  // --- reading ---------------------------------------------------------------------------------------
+  virtual std::vector<Channel> channels(const std::string& uid) const = 0;
+  /// At most `limit` samples after `after`, in order, without gaps.
+  virtual std::vector<Sample> samples(const std::string& uid, std::int64_t after, int limit) const = 0;
+  virtual std::vector<StageRow> stages(const std::string& uid) const = 0;
+  virtual std::vector<Checkpoint> checkpoints(const std::string& uid) const = 0;
+  virtual std::vector<Artifact> artifacts(const std::string& uid) const = 0;
+  virtual std::vector<Event> events(const std::string& uid) const = 0;
+
+  /// Called after each commit with the jobs that it touched, from the store's own thread: be quick.
+  /// The returned function ends it; when it has returned the listener is not called any more.
+  using Listener = std::function<void(const std::set<std::string>& uids)>;
+  [[nodiscard]] virtual std::function<void()> subscribe(Listener listener) = 0;
+};
+
+}  // namespace seaway::store

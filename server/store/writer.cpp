@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/store/writer.hpp"
+
+#include <exception>
+
+#include "core/base/error.hpp"
+
+namespace seaway::store {
+namespace {
+
+constexpr int passive_pages = 1000;   // 4 MiB of log: move it into the file as readers allow
+constexpr int truncate_pages = 8000;  // 32 MiB: wait for readers and start the log anew
+
+}  // namespace
+
+Writer::Writer(const std::string& path, std::chrono::milliseconds interval, Committed committed, Warn warn)
+    : db_(path, Database::Role::writer),
+      interval_(interval),
+      committed_(std::move(committed)),
+      warn_(std::move(warn)),
+      thread_([this] { loop(); }) {}
+
+Writer::~Writer() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+  db_.checkpoint(true);
+}
+
+void Writer::call(Change change) {
+  auto done = std::make_shared<std::promise<void>>();
+  auto result = done->get_future();
+  {
+    const std::lock_guard lock(mutex_);
+    if (tasks_.empty()) oldest_ = std::chrono::steady_clock::now();
+    tasks_.push_back({std::move(change), std::move(done)});
+    hurry_ = true;
+  }
+  wake_.notify_all();
+  result.get();
+}
+
+void Writer::post(Change change) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (tasks_.empty()) oldest_ = std::chrono::steady_clock::now();
+    tasks_.push_back({std::move(change), nullptr});
+  }
+  wake_.notify_all();
+}
+
+void Writer::flush() {
+  call([](Database&, std::set<std::string>&) {});
+}
+
+void Writer::loop() {
+  std::deque<Task> batch;
+  for (;;) {
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [&] { return stopping_ || !tasks_.empty() || !batch.empty(); });
+      if (batch.empty())
+        wake_.wait_until(lock, oldest_ + interval_, [&] { return stopping_ || hurry_; });
+      hurry_ = false;
+      for (Task& task : tasks_) batch.push_back(std::move(task));
+      tasks_.clear();
+      if (batch.empty()) return;  // stopping
+    }
+    if (commit(batch)) continue;
+    // The disk refused. Whoever waits has been told; the posted changes wait for better times.
+    std::unique_lock lock(mutex_);
+    wake_.wait_for(lock, std::chrono::seconds(1), [&] { return stopping_ || hurry_; });
+    if (stopping_) return;
+  }
+}
+
+bool Writer::commit(std::deque<Task>& batch) {
+  std::set<std::string> touched;
+  std::vector<std::exception_ptr> failures(batch.size());
+  const auto keep_posted = [&](const std::exception_ptr& why) {
+    std::deque<Task> posted;
+    for (Task& task : batch) {
+      if (task.done)
+        task.done->set_exception(why);
+      else
+        posted.push_back(std::move(task));
+    }
+    batch = std::move(posted);
+  };
+  try {
+    db_.execute("BEGIN IMMEDIATE");
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      std::set<std::string> changed;
+      db_.execute("SAVEPOINT task");
+      try {
+        batch[i].change(db_, changed);
+        db_.execute("RELEASE task");
+        touched.merge(changed);
+      } catch (const Error& error) {
+        if (error.code() == ErrorCode::unavailable) throw;  // the disk, not the change
+        failures[i] = std::current_exception();
+        db_.execute("ROLLBACK TO task");
+        db_.execute("RELEASE task");
+        if (!batch[i].done) warn_(std::string("a write was dropped: ") + error.what());
+      }
+    }
+    db_.execute("COMMIT");
+  } catch (const std::exception& error) {
+    const auto why = std::current_exception();
+    try {
+      db_.execute("ROLLBACK");
+    } catch (const std::exception&) {
+      // SQLite has rolled back by itself.
+    }
+    warn_(std::string("commit refused: ") + error.what());
+    keep_posted(why);
+    return batch.empty();
+  }
+  // Listeners hear of it before the caller of call() goes on, so that they never lag behind an answer.
+  committed_(touched);
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    if (!batch[i].done) continue;
+    if (failures[i])
+      batch[i].done->set_exception(failures[i]);
+    else
+      batch[i].done->set_value();
+  }
+  batch.clear();
+  if (db_.wal_pages() > passive_pages) db_.checkpoint(db_.wal_pages() > truncate_pages);
+  return true;
+}
+
+}  // namespace seaway::store

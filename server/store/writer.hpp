@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one thread and the one connection that write. Changes that arrive close together share a
+// transaction (group commit), so that many small writes cost one sync of the disk.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "server/store/database.hpp"
+
+namespace seaway::store {
+
+class Writer {
+ public:
+  /// Runs inside a transaction; inserts the uids of the jobs it touched.
+  using Change = std::function<void(Database&, std::set<std::string>& touched)>;
+  using Committed = std::function<void(const std::set<std::string>& touched)>;
+  using Warn = std::function<void(const std::string&)>;
+
+  /// `interval`: longest time a change of post() waits. `committed` is called after each commit.
+  Writer(const std::string& path, std::chrono::milliseconds interval, Committed committed, Warn warn);
+  /// Commits what is waiting.
+  ~Writer();
+
+  /// Returns when the change is durable; an exception of the change undoes it alone and comes out here.
+  void call(Change change);
+  /// Queues the change. Changes happen in the order of post() and call(). If the disk refuses, it is tried
+  /// again until it succeeds or the writer ends; a change that throws Error(internal) is dropped.
+  void post(Change change);
+  /// Returns when all that was posted before is durable.
+  void flush();
+
+ private:
+  struct Task {
+    Change change;
+    std::shared_ptr<std::promise<void>> done;  ///< null for posted ones
+  };
+  void loop();
+  bool commit(std::deque<Task>& batch);
+
+  Database db_;
+  const std::chrono::milliseconds interval_;
+  const Committed committed_;
+  const Warn warn_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<Task> tasks_;     // guarded by mutex_
+  bool hurry_ = false;         // guarded by mutex_: someone waits
+  bool stopping_ = false;      // guarded by mutex_
+  std::chrono::steady_clock::time_point oldest_;  // guarded by mutex_: when the first task was queued
+  std::thread thread_;         // last: uses all of the above
+};
+
+}  // namespace seaway::store

@@ -1,0 +1,11 @@
+# The stand-in for the solver, and the two programs with it.
+find_package(Protobuf REQUIRED)
+find_package(gRPC CONFIG REQUIRED)
+find_package(CLI11 REQUIRED)
+seaway_library(fake_cascade SOURCES fake_cascade.cpp DEPENDS seaway::base)
+foreach(program daemon offline)
+  add_executable(seaway_fake_${program} fake_daemon.cpp)
+  target_link_libraries(seaway_fake_${program} PRIVATE seaway::daemon seaway::offline seaway::fake_cascade)
+  set_target_properties(seaway_fake_${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+endforeach()
+target_compile_definitions(seaway_fake_offline PRIVATE SEAWAY_FAKE_OFFLINE)
