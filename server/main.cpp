@@ -7,6 +7,6 @@
 
 int main(int argc, char** argv) {
   seaway::server::block_signals();
-  const seaway::mesh::ParallelRuntime parallel(argc, argv);
+  const seaway::mesh::ParallelRuntime parallel;
   return seaway::server::run_daemon(argc, argv, {seaway::sim::run_cascade, seaway::sim::check_case});
 }

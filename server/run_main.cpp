@@ -7,6 +7,6 @@
 
 int main(int argc, char** argv) {
   seaway::server::block_stop_signals();
-  const seaway::mesh::ParallelRuntime parallel(argc, argv);
+  const seaway::mesh::ParallelRuntime parallel;
   return seaway::server::run_offline(argc, argv, {seaway::sim::run_cascade, seaway::sim::check_case});
 }
