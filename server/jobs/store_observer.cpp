@@ -12,7 +12,6 @@ namespace seaway::jobs {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::chrono::milliseconds gather{50};
 constexpr std::chrono::milliseconds progress_interval{250};
 
 store::Progress to_row(const sim::Progress& p) {
@@ -42,7 +41,6 @@ void StoreObserver::on_channels(const std::vector<sim::Channel>& channels) {
 }
 
 void StoreObserver::on_stage_started(const sim::StageInfo& info) {
-  hand_over();
   store_.put_stage(uid_, {info.stage, convert::to_proto(info).SerializeAsString()});
   log_->info("job={} stage={} name={} event=stage_started cells={} levels={} h={} dt={}", uid_, info.stage, info.name,
              info.cells, info.levels, info.finest_cell, info.dt);
@@ -53,33 +51,29 @@ void StoreObserver::on_sample(const sim::Sample& s) {
     fail(ErrorCode::data_loss, "sample {} came, {} was due: the run went on from a checkpoint that is newer than the "
          "stored history", s.sequence, next_);
   next_ = std::max(next_, s.sequence + 1);
-  samples_.push_back({s.sequence, s.stage, s.step, s.time, s.values});
-  if (samples_.size() >= 256 || Clock::now() - handed_over_ >= gather) hand_over();
+  store_.add_samples(uid_, {{s.sequence, s.stage, s.step, s.time, s.values}});
 }
 
 void StoreObserver::on_progress(const sim::Progress& progress) {
   const bool turned = progress.stage != progress_.stage || progress.held != progress_.held;
   progress_ = progress;
   progress_waits_ = true;
-  if (!turned && Clock::now() - progress_sent_ < progress_interval) return;
-  hand_over();
+  if (turned || Clock::now() - progress_sent_ >= progress_interval) send_progress();
 }
 
 void StoreObserver::on_stage_finished(const sim::StageResult& result) {
-  hand_over();
+  send_progress();
   store_.put_stage(uid_, {result.info.stage, convert::to_proto(result).SerializeAsString()});
   log_->info("job={} stage={} event=stage_finished steps={} cpu_s={:.2f} converged={}", uid_, result.info.stage,
              result.steps, result.cpu_s, result.converged);
 }
 
 void StoreObserver::on_checkpoint(const std::string& path, std::int64_t sequence) {
-  hand_over();
   store_.add_checkpoint(uid_, describe_checkpoint(path, sequence));
   log_->debug("job={} event=checkpoint sequence={}", uid_, sequence);
 }
 
 void StoreObserver::on_artifact(const std::string& name, const std::string& path, const std::string& media_type) {
-  hand_over();
   const fs::path absolute = fs::absolute(path).lexically_normal();
   const fs::path relative = absolute.lexically_relative(folder_);
   std::error_code error;
@@ -90,20 +84,16 @@ void StoreObserver::on_artifact(const std::string& name, const std::string& path
 }
 
 void StoreObserver::on_event(const std::string& kind, const std::string& text) {
-  hand_over();
   store_.add_event(uid_, kind, text);
   log_->info("job={} event={} text=\"{}\"", uid_, kind, text);
 }
 
-void StoreObserver::finish() { hand_over(); }
+void StoreObserver::finish() { send_progress(); }
 
-void StoreObserver::hand_over() {
-  handed_over_ = Clock::now();
-  if (!samples_.empty()) store_.add_samples(uid_, std::move(samples_));
-  samples_.clear();
+void StoreObserver::send_progress() {
   if (!progress_waits_) return;
   progress_waits_ = false;
-  progress_sent_ = handed_over_;
+  progress_sent_ = Clock::now();
   store_.set_progress(uid_, to_row(progress_));
 }
 

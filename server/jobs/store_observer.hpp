@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes what a run reports into the store. Samples are gathered for a moment so that a fast solver does not
-// cost a write each; everything else goes behind the samples before it, so the order of the run is kept.
+// Writes what a run reports into the store, in the order of the run. Progress, which only the newest value
+// of counts, is sent a few times a second.
 #pragma once
 
 #include <chrono>
@@ -30,19 +30,17 @@ class StoreObserver final : public sim::RunObserver {
   void on_checkpoint(const std::string& path, std::int64_t sequence) override;
   void on_artifact(const std::string& name, const std::string& path, const std::string& media_type) override;
   void on_event(const std::string& kind, const std::string& text) override;
-  /// Hands over what was gathered.
+  /// Sends the last progress.
   void finish();
 
  private:
   using Clock = std::chrono::steady_clock;
-  void hand_over();
+  void send_progress();
 
   const std::string uid_, folder_;
   store::JobStore& store_;
   const std::shared_ptr<spdlog::logger> log_;
   std::int64_t next_;  ///< largest sequence number that may come
-  std::vector<store::Sample> samples_;
-  Clock::time_point handed_over_{};
   sim::Progress progress_;
   bool progress_waits_ = false;
   Clock::time_point progress_sent_{};

@@ -30,8 +30,8 @@ Mapped map_code(ErrorCode code) {
 }
 
 // gRPC sends texts as headers, whose whole size is limited to 8 KiB by default.
-constexpr std::size_t max_text = 1500;
-constexpr int max_violations = 12;
+constexpr std::size_t max_text = 700;
+constexpr int max_violations = 8;
 
 std::string cut(std::string text, std::size_t limit) {
   if (text.size() <= limit) return text;
@@ -55,8 +55,8 @@ grpc::Status build(grpc::StatusCode code, const std::string& reason, const std::
     for (const sim::Diagnostic& p : problems) {
       if (bad.field_violations_size() >= max_violations) break;
       auto& violation = *bad.add_field_violations();
-      violation.set_field(cut(p.field, 200));
-      violation.set_description(cut(p.hint.empty() ? p.message : p.message + "; " + p.hint, 300));
+      violation.set_field(cut(p.field, 120));
+      violation.set_description(cut(p.hint.empty() ? p.message : p.message + "; " + p.hint, 240));
     }
     details.add_details()->PackFrom(bad);
   }

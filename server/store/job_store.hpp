@@ -61,7 +61,8 @@ class JobStore {
   // --- the data of a run -----------------------------------------------------------------------------
   virtual void set_channels(const std::string& uid, std::vector<Channel> channels) = 0;
   /// Consecutive samples. Those that are stored already are compared with what is there: a difference is
-  /// recorded once as a REPLAY_MISMATCH event, and the stored ones stay.
+  /// recorded once as a REPLAY_MISMATCH event, and the stored ones stay. One that leaves a gap is not stored and
+  /// recorded as HISTORY_GAP.
   virtual void add_samples(const std::string& uid, std::vector<Sample> samples) = 0;
   virtual void set_progress(const std::string& uid, const Progress& progress) = 0;
   virtual void put_stage(const std::string& uid, StageRow stage) = 0;

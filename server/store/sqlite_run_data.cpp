@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a run produces: rows in and out.
 #include <algorithm>
+#include <span>
 
 #include "core/base/error.hpp"
 #include "server/store/chunk.hpp"
@@ -56,7 +57,7 @@ std::vector<Sample> open_chunk(Database& db, std::int64_t id) {
   return static_cast<int>(samples.size()) < chunk_samples ? samples : std::vector<Sample>{};
 }
 
-void compare_replay(Database& db, const std::string& uid, std::int64_t id, const std::vector<Sample>& replayed,
+void compare_replay(Database& db, const std::string& uid, std::int64_t id, std::span<const Sample> replayed,
                     std::int64_t now) {
   const std::vector<Sample> stored =
       read_chunks(db, id, replayed.front().sequence - 1, static_cast<int>(replayed.size()));
@@ -67,7 +68,7 @@ void compare_replay(Database& db, const std::string& uid, std::int64_t id, const
         "e.kind = 'REPLAY_MISMATCH' LIMIT 1");
     if (!known.bind(id).step())
       add_event(db, uid, "REPLAY_MISMATCH",
-                "sample " + std::to_string(replayed[i].sequence) + " came out differently; the stored one stays", now);
+                fmt::format("sample {} came out differently; the stored one stays", replayed[i].sequence), now);
     return;
   }
 }
@@ -85,30 +86,41 @@ void set_channels(Database& db, const std::string& uid, const std::vector<Channe
         .run();
 }
 
-void add_samples(Database& db, const std::string& uid, const std::vector<Sample>& samples, std::int64_t now) {
-  if (samples.empty()) return;
+namespace {
+
+/// One run of consecutive samples.
+void add_run(Database& db, const std::string& uid, std::span<const Sample> run, std::int64_t now) {
   const Tail tail = tail_of(db, uid);
-  const auto fresh = std::find_if(samples.begin(), samples.end(),
-                                  [&](const Sample& s) { return s.sequence > tail.last; });
-  if (fresh != samples.begin())
-    compare_replay(db, uid, tail.id, std::vector<Sample>(samples.begin(), fresh), now);
-  if (fresh == samples.end()) return;
+  const auto known = std::clamp<std::int64_t>(tail.last - run.front().sequence + 1, 0, static_cast<std::int64_t>(run.size()));
+  if (known > 0) compare_replay(db, uid, tail.id, run.first(static_cast<std::size_t>(known)), now);
+  run = run.subspan(static_cast<std::size_t>(known));
+  if (run.empty()) return;
+  if (run.front().sequence != tail.last + 1) {
+    add_event(db, uid, "HISTORY_GAP",
+              fmt::format("sample {} came after {}; it was not stored", run.front().sequence, tail.last), now);
+    return;
+  }
   std::vector<Sample> open = open_chunk(db, tail.id);
-  std::int64_t next = tail.last + 1;
-  for (auto s = fresh; s != samples.end(); ++s, ++next) {
-    if (s->sequence != next)
-      fail(ErrorCode::internal, "job {}: sample {} after {}: a gap in the history", uid, s->sequence, next - 1);
-    if (!open.empty() && open.front().values.size() != s->values.size())
-      fail(ErrorCode::internal, "job {}: sample {} has {} values instead of {}", uid, s->sequence, s->values.size(),
-           open.front().values.size());
-    open.push_back(*s);
-    if (static_cast<int>(open.size()) == chunk_samples) {
-      write_chunk(db, tail.id, open);
-      open.clear();
-    }
+  for (const Sample& s : run) {
+    open.push_back(s);
+    if (static_cast<int>(open.size()) < chunk_samples) continue;
+    write_chunk(db, tail.id, open);
+    open.clear();
   }
   if (!open.empty()) write_chunk(db, tail.id, open);
-  db.prepare("UPDATE jobs SET last_sequence = ?, updated_ns = ? WHERE id = ?").bind(next - 1, now, tail.id).run();
+  db.prepare("UPDATE jobs SET last_sequence = ?, updated_ns = ? WHERE id = ?")
+      .bind(run.back().sequence, now, tail.id)
+      .run();
+}
+
+}  // namespace
+
+void add_samples(Database& db, const std::string& uid, const std::vector<Sample>& samples, std::int64_t now) {
+  // A run that was interrupted and goes on begins again at an earlier sample.
+  for (std::size_t from = 0, to = 0; from < samples.size(); from = to) {
+    for (to = from + 1; to < samples.size() && samples[to].sequence == samples[to - 1].sequence + 1;) ++to;
+    add_run(db, uid, std::span(samples).subspan(from, to - from), now);
+  }
 }
 
 void put_stage(Database& db, const std::string& uid, const StageRow& stage) {

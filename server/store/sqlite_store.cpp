@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <condition_variable>
 #include <cstring>
+#include <iterator>
 #include <map>
 #include <mutex>
 
@@ -289,9 +290,24 @@ class SqliteStore final : public JobStore {
       rows::set_channels(db, job, channels);
     });
   }
+  /// Samples come one by one and often: those of a commit interval are written together. What was handed over
+  /// later than them still comes after them.
   void add_samples(const std::string& uid, std::vector<Sample> samples) override {
-    post(uid, [samples = std::move(samples)](Database& db, const std::string& job, std::int64_t now) {
-      rows::add_samples(db, job, samples, now);
+    std::shared_ptr<std::vector<Sample>> fresh;
+    {
+      const std::lock_guard lock(waiting_mutex_);
+      auto& waiting = waiting_[uid];
+      if (waiting == nullptr) waiting = fresh = std::make_shared<std::vector<Sample>>();
+      waiting->insert(waiting->end(), std::make_move_iterator(samples.begin()), std::make_move_iterator(samples.end()));
+    }
+    if (fresh == nullptr) return;
+    post(uid, [this, fresh](Database& db, const std::string& job, std::int64_t now) {
+      {
+        const std::lock_guard lock(waiting_mutex_);  // from here on nobody adds to it
+        if (const auto waiting = waiting_.find(job); waiting != waiting_.end() && waiting->second == fresh)
+          waiting_.erase(waiting);
+      }
+      rows::add_samples(db, job, *fresh, now);
     });
   }
   void set_progress(const std::string& uid, const Progress& progress) override {
@@ -384,6 +400,8 @@ class SqliteStore final : public JobStore {
   const LockFile lock_;
   const bool prepared_;
   mutable ReaderPool readers_;
+  std::mutex waiting_mutex_;
+  std::map<std::string, std::shared_ptr<std::vector<Sample>>> waiting_;  // guarded by waiting_mutex_
   std::mutex listeners_mutex_;
   std::map<int, Listener> listeners_;  // guarded by listeners_mutex_
   int next_listener_ = 1;              // guarded by listeners_mutex_

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "proto/yaml.hpp"
+#include "server/convert/case.hpp"
+#include "server/convert/input_error.hpp"
+#include "server/convert/result.hpp"
+
+namespace seaway::convert {
+namespace {
+
+v1::Case small() {
+  v1::Case m;
+  yaml::read_file(SEAWAY_SOURCE_DIR "/tests/e2e/small.yaml", m);
+  return m;
+}
+
+std::vector<std::string> refused_fields(const v1::Case& m) {
+  std::vector<std::string> out;
+  try {
+    to_core(m);
+  } catch (const InputError& error) {
+    for (const auto& p : error.problems()) out.push_back(p.field);
+  }
+  return out;
+}
+
+TEST(ConvertCase, AppliesUnitsAndDefaults) {
+  v1::Case m = small();
+  m.mutable_wave()->mutable_regular()->set_phase_deg(90);
+  m.mutable_body()->mutable_angles()->set_roll_deg(-15);
+  const sim::Case c = to_core(m);
+  EXPECT_EQ(c.dim, 2);
+  EXPECT_DOUBLE_EQ(c.wave.phase, pi / 2);
+  EXPECT_DOUBLE_EQ(c.wave.heading, pi / 2);
+  EXPECT_DOUBLE_EQ(c.body.angles[0], -15 * degree);
+  EXPECT_EQ(c.fluids.rho_water, 1000);
+  EXPECT_EQ(c.tank.lower[1], -3.5);
+  EXPECT_EQ(c.hull.compartments.at(0).openings.at(0).upper[2], 0.05);
+  EXPECT_EQ(c.body.release, sim::Body::Release::converged);
+  ASSERT_EQ(c.stages.size(), 3u);
+  EXPECT_EQ(c.stages[0].mesh.surface[0].within, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(c.stages[2].mesh.surface[0].within, 2);
+  EXPECT_DOUBLE_EQ(c.stages[0].mesh.hull_sweep, 35 * degree);
+  EXPECT_EQ(c.body.free, (std::vector<sim::Dof>{sim::Dof::heave, sim::Dof::roll}));
+}
+
+TEST(ConvertCase, WritesEveryDefaultOut) {
+  const v1::Case full = to_proto(to_core(small()));
+  EXPECT_EQ(full.fluids().gravity_m_per_s2(), 9.81);
+  EXPECT_EQ(full.wave().regular().theory(), v1::RegularWave::THEORY_STREAM_FUNCTION);
+  const v1::Case again = to_proto(to_core(full));
+  EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(full, again))
+      << full.DebugString() << again.DebugString();
+}
+
+struct Mistake {
+  const char* field;
+  void (*make)(v1::Case&);
+};
+class Mistakes : public ::testing::TestWithParam<Mistake> {};
+TEST_P(Mistakes, AreRefusedByField) {
+  v1::Case m = small();
+  GetParam().make(m);
+  EXPECT_THAT(refused_fields(m), ::testing::Contains(GetParam().field));
+}
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+INSTANTIATE_TEST_SUITE_P(
+    ConvertCase, Mistakes,
+    ::testing::Values(
+        Mistake{"title", [](v1::Case& m) { m.clear_title(); }},
+        Mistake{"dimension", [](v1::Case& m) { m.set_dimension(4); }},
+        Mistake{"tank", [](v1::Case& m) { m.clear_tank(); }},
+        Mistake{"tank.x_m", [](v1::Case& m) { m.mutable_tank()->add_x_m(1); }},
+        Mistake{"tank.y_m", [](v1::Case& m) { m.mutable_tank()->add_y_m(1); }},
+        Mistake{"tank.z_m", [](v1::Case& m) { m.mutable_tank()->set_z_m(0, 0.1); }},
+        Mistake{"mesh.base_cell_m", [](v1::Case& m) { m.clear_mesh(); }},
+        Mistake{"mesh.base_cell_m", [](v1::Case& m) { m.mutable_mesh()->set_base_cell_m(nan_value); }},
+        Mistake{"wave", [](v1::Case& m) { m.mutable_wave()->clear_regular(); }},
+        Mistake{"wave.regular", [](v1::Case& m) { m.mutable_wave()->mutable_regular()->set_length_m(3); }},
+        Mistake{"wave.regular.height_m", [](v1::Case& m) { m.mutable_wave()->mutable_regular()->set_height_m(-1); }},
+        Mistake{"wave.regular.heading_deg", [](v1::Case& m) { m.mutable_wave()->mutable_regular()->set_heading_deg(180); }},
+        Mistake{"hull", [](v1::Case& m) { m.mutable_hull()->clear_box(); }},
+        Mistake{"hull.box.beam_m", [](v1::Case& m) { m.mutable_hull()->mutable_box()->set_beam_m(0); }},
+        Mistake{"hull.compartments[0].wall_thickness_m",
+                [](v1::Case& m) { m.mutable_hull()->mutable_compartments(0)->clear_wall_thickness_m(); }},
+        Mistake{"hull.compartments[0].permeability",
+                [](v1::Case& m) { m.mutable_hull()->mutable_compartments(0)->set_permeability(1.2); }},
+        Mistake{"hull.compartments[0].openings[0].y_m",
+                [](v1::Case& m) { m.mutable_hull()->mutable_compartments(0)->mutable_openings(0)->clear_y_m(); }},
+        Mistake{"hull.compartments[1].name",
+                [](v1::Case& m) { *m.mutable_hull()->add_compartments() = m.hull().compartments(0); }},
+        Mistake{"hull.compartments[0].name",
+                [](v1::Case& m) { m.mutable_hull()->mutable_compartments(0)->set_name("../up"); }},
+        Mistake{"body", [](v1::Case& m) { m.clear_body(); }},
+        Mistake{"body", [](v1::Case& m) { m.clear_hull(); }},
+        Mistake{"body.mass_kg_per_m", [](v1::Case& m) { m.mutable_body()->set_mass_kg_per_m(-15); }},
+        Mistake{"body.mass_kg_per_m", [](v1::Case& m) { m.mutable_body()->set_mass_kg(15); }},
+        Mistake{"body.cog", [](v1::Case& m) { m.mutable_body()->clear_cog(); }},
+        Mistake{"body.gyradii.x_m", [](v1::Case& m) { m.mutable_body()->clear_gyradii(); }},
+        Mistake{"body.free[2]", [](v1::Case& m) { m.mutable_body()->add_free(v1::DOF_PITCH); }},
+        Mistake{"body.free[2]", [](v1::Case& m) { m.mutable_body()->add_free(v1::DOF_ROLL); }},
+        Mistake{"body.free[2]", [](v1::Case& m) { m.mutable_body()->add_free(static_cast<v1::Dof>(77)); }},
+        Mistake{"body.prescribed[0].dof",
+                [](v1::Case& m) { m.mutable_body()->add_prescribed()->set_dof(v1::DOF_ROLL); }},
+        Mistake{"body.release.converged.max_periods",
+                [](v1::Case& m) { m.mutable_body()->mutable_release()->mutable_converged()->set_max_periods(1); }},
+        Mistake{"time.steps_per_period", [](v1::Case& m) { m.mutable_time()->set_steps_per_period(100); }},
+        Mistake{"cascade.stages", [](v1::Case& m) { m.clear_cascade(); }},
+        Mistake{"cascade.stages[1].end", [](v1::Case& m) { m.mutable_cascade()->mutable_stages(1)->clear_end(); }},
+        Mistake{"cascade.stages[0].mapping", [](v1::Case& m) { m.mutable_cascade()->mutable_stages(0)->mutable_mapping(); }},
+        Mistake{"cascade.stages[2].mapping.k",
+                [](v1::Case& m) { m.mutable_cascade()->mutable_stages(2)->mutable_mapping()->set_k(120); }},
+        Mistake{"outputs.gauges[1].name",
+                [](v1::Case& m) { m.mutable_outputs()->add_gauges()->set_name("bow"); }}));
+
+TEST(ConvertCase, RefusesOpenAndClockwisePolygons) {
+  v1::Case m = small();
+  auto& polygon = *m.mutable_hull()->mutable_polygon();
+  const auto add = [&](double y, double z) {
+    polygon.add_vertices()->set_y_m(y);
+    polygon.mutable_vertices(polygon.vertices_size() - 1)->set_z_m(z);
+  };
+  add(0, 0);
+  add(0, 1);
+  EXPECT_THAT(refused_fields(m), ::testing::Contains("hull.polygon.vertices"));
+  add(1, 1);
+  EXPECT_THAT(refused_fields(m), ::testing::Contains("hull.polygon.vertices"));  // clockwise
+  add(0, 0);
+  EXPECT_THAT(refused_fields(m), ::testing::Contains("hull.polygon.vertices[3]"));
+}
+
+TEST(ConvertResult, TurnsRadiansIntoDegreesAtTheEdge) {
+  EXPECT_EQ(to_proto(sim::Channel{"roll", "rad"}).unit(), "deg");
+  EXPECT_EQ(to_proto(sim::Channel{"roll_rate", "rad/s"}).unit(), "deg/s");
+  EXPECT_EQ(to_proto(sim::Channel{"heave", "m"}).unit(), "m");
+  v1::SampleChunk chunk;
+  append({5, 1, 40, 0.5, {pi / 6, 0.25}}, {{"roll", "rad"}, {"heave", "m"}}, chunk);
+  EXPECT_NEAR(chunk.columns(0).values(0), 30, 1e-13);  // rounding of pi
+  EXPECT_EQ(chunk.columns(1).values(0), 0.25);
+  EXPECT_EQ(chunk.first_sequence(), 5);
+}
+
+}  // namespace
+}  // namespace seaway::convert
