@@ -33,7 +33,7 @@ TEST(ValidationResults, LinesHaveExactlyTheAgreedKeys) {
   results.expect_near("period", 0.93, "s", 0.94, 0.02);
   const auto line = out.read().at(0);
   std::string keys;
-  for (const auto& item : line.items()) keys += item.key() + " ";
+  for (const auto& item : line.items()) keys.append(item.key()).append(1, ' ');
   EXPECT_EQ(keys, "case quantity value unit reference tolerance pass cpu_s ");
   EXPECT_EQ(line["case"], "some_case");
   EXPECT_EQ(line["quantity"], "period");
