@@ -284,8 +284,9 @@ template <int Dim>
 void Simulation<Dim>::kick(double dt, StepReport& report) {
   const Case& c = model_->description;
   if (c.fluids.viscous) viscosity_.apply(state_, dt);
-  projection_.apply_gravity(state_, dt);
+  // Before gravity: relaxing the weight's kick as well would make the water lighter in the zones.
   if (zones_) zones_->relax_velocity(state_, time_ + 0.5 * next_dt_, dt);
+  projection_.apply_gravity(state_, dt);
   clock_.charge("forcing");
   const motion::DofMatrix<Dim> inverse = inverse_mass();
   if (mask_) {
