@@ -1,6 +1,5 @@
 # Build options and the flags that every target of the project gets.
 option(SEAWAY_NATIVE "Compile for the processor of this machine (-march=native)" ON)
-option(SEAWAY_OPENMP "Run block loops on threads (off for the thread sanitizer)" ON)
 option(SEAWAY_ASSERT "Keep SEAWAY_ASSERT in optimised builds" OFF)
 option(SEAWAY_WERROR "Treat warnings as errors" OFF)
 option(SEAWAY_BUILD_TESTS "Build tests, seaway-validate and seaway-bench" ON)

@@ -1,13 +1,41 @@
 // Block loops on threads. Each index is handled by exactly one thread and writes only its own block, and
 // sums are taken per block and then in block order: the number of threads never changes a result.
-// OpenMP is used here and nowhere else.
+//
+// Indices are handed out in chunks as threads ask for them: a core that other programs keep busy delays its
+// own chunk only, where a fixed share would hold up every loop of the time step.
 #pragma once
 
+#include <atomic>
 #include <exception>
+#include <memory>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 namespace seaway::mesh {
+
+/// Helpers of one calling thread; made on its first parallel loop and ended with it.
+class ThreadTeam {
+ public:
+  ~ThreadTeam();
+  /// Calls body(context, begin, end) for chunks that cover [0, n); returns when all are done.
+  void run(int n, int threads, void (*body)(void*, int, int), void* context);
+  /// The team of the calling thread.
+  static ThreadTeam& mine();
+
+ private:
+  void work(const std::stop_token& stop);
+  void take_chunks();
+
+  std::vector<std::jthread> helpers_;
+  std::atomic<unsigned> generation_{0};
+  std::atomic<bool> open_{false};   ///< a loop is running and may be joined
+  std::atomic<int> joined_{0};      ///< helpers inside the loop
+  std::atomic<int> next_{0};
+  void (*body_)(void*, int, int) = nullptr;
+  void* context_ = nullptr;
+  int n_ = 0, chunk_ = 1;
+};
 
 /// f(i) for i in [0, n). The first exception is kept and rethrown after the loop.
 template <class F>
@@ -16,22 +44,24 @@ void parallel_for(int n, int threads, F&& f) {
     for (int i = 0; i < n; ++i) f(i);
     return;
   }
-#ifdef _OPENMP
-  std::exception_ptr first;
-  std::mutex guard;
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (int i = 0; i < n; ++i) {
-    try {
-      f(i);
-    } catch (...) {
-      const std::lock_guard lock(guard);
-      if (!first) first = std::current_exception();
-    }
-  }
-  if (first) std::rethrow_exception(first);
-#else
-  for (int i = 0; i < n; ++i) f(i);
-#endif
+  struct Loop {
+    F* f;
+    std::exception_ptr first;
+    std::mutex guard;
+  } loop{&f, nullptr, {}};
+  ThreadTeam::mine().run(
+      n, threads,
+      [](void* context, int begin, int end) {
+        auto* l = static_cast<Loop*>(context);
+        try {
+          for (int i = begin; i < end; ++i) (*l->f)(i);
+        } catch (...) {
+          const std::lock_guard lock(l->guard);
+          if (!l->first) l->first = std::current_exception();
+        }
+      },
+      &loop);
+  if (loop.first) std::rethrow_exception(loop.first);
 }
 
 /// Sum of f(i), each computed on its own, added in the order of i.
