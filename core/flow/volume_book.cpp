@@ -201,13 +201,15 @@ void VolumeBook<Dim>::settle(const HullMask<Dim>& mask, const std::vector<double
   const auto& theta = mask.fluid_fraction();
   last_defect_ = 0;
   // All defects first: what one cell gives must not change what the next one sees.
-  std::vector<std::pair<IVec<Dim>, double>> defects;
+  std::vector<std::pair<IVec<Dim>, double>> defects, cut;
   window.for_cells([&](const IVec<Dim>& i) {
     const auto at = static_cast<std::size_t>(window.at(i));
     const auto entry = book_.find(window.global_cell(i));
     if (entry == book_.end() && theta[at] >= 1) return;
     const double wanted = entry != book_.end() ? entry->second : advected[at] * window.cell_volume();
-    const double defect = wanted - visible_in(mask, i, vof);
+    const double there = visible_in(mask, i, vof);
+    if (theta[at] > 0 && theta[at] < 1) cut.emplace_back(i, there);
+    const double defect = wanted - there;
     if (defect != 0) defects.emplace_back(i, defect);
   });
   for (const auto& [i, defect] : defects) {
@@ -218,6 +220,12 @@ void VolumeBook<Dim>::settle(const HullMask<Dim>& mask, const std::vector<double
   }
   if (correct) release(mask, vof, dt);
   measure(mask, vof);
+  if (!correct) return;
+  // What was given has tilted the planes of cut cells beside the takers: that is owed as well.
+  for (const auto& [i, there] : cut) {
+    const double change = there - visible_[static_cast<std::size_t>(window.at(i))];
+    if (change != 0) reservoir_[space_of(mask, i)] += change;
+  }
 }
 
 template <int Dim>
