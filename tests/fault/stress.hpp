@@ -14,6 +14,7 @@ struct Settings {
   std::string seawayd, seaway_run, case_file;
   int clients = 100;
   int kills = 10;
+  int threads = 1;                   ///< of the solver
   double seconds = 120;              ///< longest time to watch a run; it is cancelled then
   double checkpoint_interval_s = 5;
   unsigned seed = 1;

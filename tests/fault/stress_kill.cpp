@@ -41,7 +41,17 @@ std::vector<Line> kill(const Settings& s) {
   std::vector<std::string> acknowledged;
   const auto submit = [&] {
     client::JobClient client(daemon.address());
-    acknowledged.push_back(client.create(request_of(s.case_file)).job().name());
+    const auto request = request_of(s.case_file);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    for (;;) {
+      try {
+        acknowledged.push_back(client.create(request).job().name());
+        return;
+      } catch (const client::RpcError& error) {
+        // On a busy machine the connection to a server that has just begun takes its time.
+        if (error.code() != client::exit_unreachable || std::chrono::steady_clock::now() > deadline) throw;
+      }
+    }
   };
   submit();
   Witness witness(daemon.address(), acknowledged.front());
@@ -71,7 +81,7 @@ std::vector<Line> kill(const Settings& s) {
   }
   const std::string stored = history_csv_of(client, acknowledged.front());
   daemon.terminate();
-  const auto unbroken = testing::run_program({s.seaway_run, s.case_file, "-o", folder / "unbroken", "-q"});
+  const auto unbroken = testing::run_program({s.seaway_run, s.case_file, "-o", folder / "unbroken", "-q", "--threads", std::to_string(s.threads)});
   std::string expected = testing::read_text(folder / "unbroken/history.csv");
   expected.erase(0, expected.find('\n') + 1);
   std::fprintf(stderr, "kill: %d kills, %lld samples, unbroken run ended with %d\n", done,

@@ -45,7 +45,8 @@ v1::CreateJobRequest request_of(const std::string& case_file) {
 }
 
 std::vector<std::string> daemon_arguments(const Settings& settings, const std::string& folder) {
-  std::ofstream(folder + "/config.yaml") << "workers:\n  checkpoint_interval_s: " << settings.checkpoint_interval_s << "\n";
+  std::ofstream(folder + "/config.yaml") << "workers:\n  checkpoint_interval_s: " << settings.checkpoint_interval_s
+                                         << "\n  threads: " << settings.threads << "\n";
   return {"--config", folder + "/config.yaml"};
 }
 
@@ -80,6 +81,7 @@ int main(int argc, char** argv) {
   app.add_option("--seaway-run", s.seaway_run, "program of the unbroken run")->capture_default_str();
   app.add_option("--clients", s.clients, "for watch")->capture_default_str();
   app.add_option("--kills", s.kills, "for kill")->capture_default_str();
+  app.add_option("--threads", s.threads, "of the solver")->capture_default_str();
   app.add_option("--seconds", s.seconds, "longest time to watch a run")->capture_default_str();
   app.add_option("--checkpoint-interval", s.checkpoint_interval_s, "seconds")->capture_default_str();
   app.add_option("--seed", s.seed, "of the random moments; 0: a new one");

@@ -13,6 +13,7 @@ namespace seaway::stress {
 class Witness {
  public:
   Witness(const std::string& address, std::string job);
+  ~Witness();
   /// Until the job has ended; what was received, as CSV without header.
   const std::string& wait();
   std::int64_t last() const { return last_; }
@@ -27,7 +28,7 @@ class Witness {
   std::string csv_;
   std::atomic<std::int64_t> last_{0};
   std::atomic<double> fraction_{0};
-  std::atomic<bool> ended_{false};
+  std::atomic<bool> ended_{false}, leave_{false};
   std::atomic<int> gaps_{0};
   std::thread thread_;
 };
