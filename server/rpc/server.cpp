@@ -106,7 +106,8 @@ void Server::shutdown() {
   if (parts_ == nullptr || parts_->server == nullptr) return;
   parts_->server->GetHealthCheckService()->SetServingStatus(false);
   parts_->registry.close_all(std::chrono::milliseconds(1500));
-  parts_->server->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(2));
+  // All calls have ended; idle connections would be waited for until the deadline.
+  parts_->server->Shutdown(std::chrono::system_clock::now() + std::chrono::milliseconds(300));
   parts_->ticker = {};
   parts_->server.reset();
 }
