@@ -201,14 +201,15 @@ void VolumeBook<Dim>::settle(const HullMask<Dim>& mask, const std::vector<double
   const auto& theta = mask.fluid_fraction();
   last_defect_ = 0;
   // All defects first: what one cell gives must not change what the next one sees.
-  std::vector<std::pair<IVec<Dim>, double>> defects;
+  std::vector<std::pair<IVec<Dim>, double>> defects, cut;
   window.for_cells([&](const IVec<Dim>& i) {
     const auto at = static_cast<std::size_t>(window.at(i));
     const auto entry = book_.find(window.global_cell(i));
     if (entry == book_.end() && theta[at] >= 1) return;
     const double wanted = entry != book_.end() ? entry->second : advected[at] * window.cell_volume();
-    const double defect = wanted - visible_in(mask, i, vof);
-    if (defect != 0) defects.emplace_back(i, defect);
+    const double seen = visible_in(mask, i, vof);
+    if (wanted != seen) defects.emplace_back(i, wanted - seen);
+    if (theta[at] < 1) cut.emplace_back(i, seen);
   });
   for (const auto& [i, defect] : defects) {
     last_defect_ += std::abs(defect);
@@ -218,6 +219,13 @@ void VolumeBook<Dim>::settle(const HullMask<Dim>& mask, const std::vector<double
   }
   if (correct) release(mask, vof, dt);
   measure(mask, vof);
+  if (!correct) return;
+  // What was given to a cell tilts the planes of the cut cells beside it: they show more or less water than
+  // before, although their volume fraction is the same. That too is owed.
+  for (const auto& [i, seen] : cut) {
+    const double shown = visible_[static_cast<std::size_t>(window.at(i))] - seen;
+    if (shown != 0) reservoir_[space_of(mask, i)] -= shown;
+  }
 }
 
 template <int Dim>
