@@ -346,6 +346,12 @@ linear::SolveReport Projection<Dim>::repair(FlowState<Dim>& state, const HullMas
   }
   operator_.rigid() = {};
   right_side(state, dt, rhs_);
+  // Cells without a free face cannot change: what they lack must not keep the solver busy.
+  forest_.for_each_leaf([&](int b) {
+    const float* inverse = operator_.inverse_diagonal().block(b);
+    for (int i = 0; i < BlockShape<Dim>::cells; ++i)
+      if (inverse[i] == 0) rhs_.block(b)[i] = 0;
+  });
   CellField<double, Dim> potential(forest_);
   const auto report = cg_.solve(operator_, multigrid_, rhs_, potential, options.tolerance / (dt * dt),
                                 options.max_iterations);
