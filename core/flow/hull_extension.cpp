@@ -83,6 +83,22 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
     plane.d = plane_constant<Dim>(plane.normal, vof[static_cast<std::size_t>(at)]);
     return plane;
   };
+  // A surface that lies exactly on a grid line leaves no mixed cell: the face between water and air is it.
+  const auto sharp_plane = [&](int at, Plane<Dim>& plane) {
+    const double c = vof[static_cast<std::size_t>(at)];
+    for (int a = Dim - 1; a >= 0; --a) {
+      for (int side = -1; side <= 1; side += 2) {
+        const auto beside = static_cast<std::size_t>(at + side * window.stride(a));
+        if (layer_[beside] != 0 || is_mixed(vof[beside]) || (vof[beside] > 0.5) == (c > 0.5)) continue;
+        const double outwards = c > 0.5 ? side : -side;  // from water to air
+        plane.normal.fill(0);
+        plane.normal[static_cast<std::size_t>(a)] = outwards;
+        plane.d = side > 0 ? outwards : 0.0;
+        return true;
+      }
+    }
+    return false;
+  };
   for (int layer = 1; layer <= extension_layers; ++layer) {
     list_.clear();
     next_.clear();
@@ -104,8 +120,10 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
           bool inside = true;  // the plane needs the neighbour's own 3^Dim stencil
           for (int a = 0; a < Dim; ++a)
             inside = inside && i[a] + n.at[a] >= 1 && i[a] + n.at[a] < window.n()[a] - 1;
-          if (layer == 1 && is_mixed(c) && inside) {
-            Plane<Dim> plane = plane_of(from);
+          if (layer > 1 || !inside) continue;
+          Plane<Dim> plane;
+          if (is_mixed(c)) plane = plane_of(from);
+          if (is_mixed(c) || sharp_plane(from, plane)) {
             for (int a = 0; a < Dim; ++a) plane.d += n.at[a] * plane.normal[static_cast<std::size_t>(a)];
             const double weight = n.distance == 1 ? 1.0 : 0.5;
             planes += weight * plane_fraction<Dim>(plane.normal, plane.d);

@@ -122,6 +122,8 @@ void HullMask<Dim>::find_apertures(HullGeometry<Dim>& g, bool with_solid_faces) 
         double open = 1 - solid.volume / volume;
         if (open < smallest_aperture) open = 0;
         if (open > 1) open = 1;
+        // What the pressure coefficients can hold: w must see the very apertures of the solve.
+        open = static_cast<double>(static_cast<float>(open));
         g.aperture[a][at] = open;
         if (open > 0 && solid.volume > 0) {
           const Vec<Dim> moment = volume * box.centre - solid.moment;

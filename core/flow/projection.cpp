@@ -320,11 +320,56 @@ linear::SolveReport Projection<Dim>::project(FlowState<Dim>& state, const HullMa
   return report;
 }
 
+/// Each connected set of cells that may change is closed: only what sums to zero in it can be removed, and
+/// nothing in cells that are shut. The rest (of the size of the old solve's residual) would make the
+/// singular system inconsistent, and conjugate gradients diverge on that.
+template <int Dim>
+void Projection<Dim>::make_consistent(CellField<double, Dim>& b) const {
+  constexpr int n = BlockShape<Dim>::n, cells = BlockShape<Dim>::cells;
+  std::vector<char> seen(b.data().size(), 0);
+  std::vector<std::pair<int, IVec<Dim>>> set;
+  const auto index = [](int block, const IVec<Dim>& i) {
+    return static_cast<std::size_t>(block) * cells + static_cast<std::size_t>(offset<Dim>(i, cell_strides<Dim>()));
+  };
+  for (const int leaf : forest_.leaves()) {
+    for_box<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& first) {
+      if (seen[index(leaf, first)]) return;
+      seen[index(leaf, first)] = 1;
+      set.assign(1, {leaf, first});
+      double sum = 0, volume = 0;
+      for (std::size_t k = 0; k < set.size(); ++k) {
+        const auto [at, i] = set[k];
+        const auto& block = forest_.block(at);
+        sum += b.data()[index(at, i)];
+        volume += block.cell_volume();
+        for (int axis = 0; axis < Dim; ++axis) {
+          const float* c = operator_.coefficients().block(axis, at) + offset<Dim>(i, face_strides<Dim>(axis));
+          for (int side = 0; side < 2; ++side) {
+            if (!(c[side * face_strides<Dim>(axis)[axis]] > 0)) continue;
+            IVec<Dim> next = i;
+            next[axis] += side == 0 ? -1 : 1;
+            int to = at;
+            if (next[axis] < 0 || next[axis] >= n) {
+              to = side_neighbour<Dim>(block, axis, side);
+              if (to < 0 || !forest_.block(to).leaf) continue;
+              next[axis] += side == 0 ? n : -n;
+            }
+            if (seen[index(to, next)]) continue;
+            seen[index(to, next)] = 1;
+            set.emplace_back(to, next);
+          }
+        }
+      }
+      for (const auto& [at, i] : set) b.data()[index(at, i)] -= sum / volume * forest_.block(at).cell_volume();
+    });
+  }
+}
+
 template <int Dim>
 linear::SolveReport Projection<Dim>::repair(FlowState<Dim>& state, const HullMask<Dim>* mask,
-                                            const motion::Twist<Dim>& twist, const std::vector<char>& free_cells,
+                                            const motion::Twist<Dim>& twist, const std::vector<char>* free_cells,
                                             double dt, const ProjectionOptions& options) {
-  if (mask) {
+  if (mask && free_cells) {
     const auto& window = mask->window();
     std::vector<double> w;
     for (int axis = 0; axis < Dim; ++axis) {
@@ -336,8 +381,8 @@ linear::SolveReport Projection<Dim>::repair(FlowState<Dim>& state, const HullMas
         const auto at = static_cast<std::size_t>(window.at(i));
         IVec<Dim> below = i;
         --below[axis];
-        if (aperture[at] > 0 || !free_cells[static_cast<std::size_t>(window.global_cell(i))] ||
-            !free_cells[static_cast<std::size_t>(window.global_cell(below))])
+        if (aperture[at] > 0 || !(*free_cells)[static_cast<std::size_t>(window.global_cell(i))] ||
+            !(*free_cells)[static_cast<std::size_t>(window.global_cell(below))])
           return;
         w[at] = motion::velocity_at<Dim>(twist, mask->half().pose, window.face_centre(i, axis))[axis];
       });
@@ -346,12 +391,7 @@ linear::SolveReport Projection<Dim>::repair(FlowState<Dim>& state, const HullMas
   }
   operator_.rigid() = {};
   right_side(state, dt, rhs_);
-  // Cells without a free face cannot change: what they lack must not keep the solver busy.
-  forest_.for_each_leaf([&](int b) {
-    const float* inverse = operator_.inverse_diagonal().block(b);
-    for (int i = 0; i < BlockShape<Dim>::cells; ++i)
-      if (inverse[i] == 0) rhs_.block(b)[i] = 0;
-  });
+  if (free_cells) make_consistent(rhs_);
   CellField<double, Dim> potential(forest_);
   const auto report = cg_.solve(operator_, multigrid_, rhs_, potential, options.tolerance / (dt * dt),
                                 options.max_iterations);

@@ -86,6 +86,14 @@ void CascadeRun<Dim>::prune_checkpoints() const {
 }
 
 template <int Dim>
+void CascadeRun<Dim>::discard_checkpoints() const {
+  for (const std::string& path : checkpoints()) {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+}
+
+template <int Dim>
 void CascadeRun<Dim>::write_checkpoint() {
   const auto& s = *simulation_;
   simulation_->clock().charge("output");
@@ -133,9 +141,24 @@ void CascadeRun<Dim>::write_checkpoint() {
   simulation_->clock().charge("checkpoint");
 }
 
+namespace {
+
+/// Out of the way of new ones, which would otherwise be pruned as the older ones.
+void set_aside(const std::string& path) {
+  std::error_code ignored;
+  fs::rename(path, path + ".rejected", ignored);
+}
+
+}  // namespace
+
 template <int Dim>
 bool CascadeRun<Dim>::resume() {
   for (const std::string& path : checkpoints()) {
+    const auto reject = [&](const std::string& why) {
+      set_aside(path);
+      observer_.on_event("checkpoint_rejected", why);
+      context_.log->warn("checkpoint rejected: {}", why);
+    };
     try {
       restore(path);
       observer_.on_event("resumed", fmt::format("went on from {} at t = {:.4f} s, sample {}",
@@ -143,10 +166,9 @@ bool CascadeRun<Dim>::resume() {
       return true;
     } catch (const Error& error) {
       if (error.code() != ErrorCode::data_loss) throw;
-      observer_.on_event("checkpoint_rejected", error.what());
-      context_.log->warn("checkpoint rejected: {}", error.what());
+      reject(error.what());
     } catch (const json::exception& error) {
-      observer_.on_event("checkpoint_rejected", error.what());
+      reject(error.what());
     }
   }
   simulation_.reset();
@@ -205,6 +227,7 @@ void CascadeRun<Dim>::restore(const std::string& path) {
 
 template std::vector<std::string> CascadeRun<2>::checkpoints() const;
 template void CascadeRun<2>::prune_checkpoints() const;
+template void CascadeRun<2>::discard_checkpoints() const;
 template void CascadeRun<2>::write_checkpoint();
 template bool CascadeRun<2>::resume();
 template void CascadeRun<2>::restore(const std::string&);

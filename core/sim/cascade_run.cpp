@@ -48,6 +48,7 @@ template <int Dim>
 RunOutcome CascadeRun<Dim>::run() {
   observer_.on_channels(recorder_.channels());
   run_begun_ = last_checkpoint_ = last_progress_ = stage_begun_ = Clock::now();
+  if (!options_.resume) discard_checkpoints();
   if (!options_.resume || !resume()) start();
   for (;;) {
     if (!stage_.finished) {

@@ -40,6 +40,7 @@ class CascadeRun {
   void restore(const std::string& path);
   void write_checkpoint();
   void prune_checkpoints() const;
+  void discard_checkpoints() const;  ///< a run from the start: none of the old ones may outlive it
   std::vector<std::string> checkpoints() const;  ///< newest first
 
   void begin_stage(int index);

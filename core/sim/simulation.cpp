@@ -172,7 +172,7 @@ std::pair<double, double> Simulation<Dim>::adopt(flow::FlowState<Dim>&& state, c
   double after = before;
   if (free_cells) {
     projection_.prepare(state_, mask_.get(), free_cells);
-    (void)projection_.repair(state_, mask_.get(), body_.twist, *free_cells, dt_, {mapped_divergence, 400});
+    (void)projection_.repair(state_, mask_.get(), body_.twist, free_cells, dt_, {mapped_divergence, 400});
     after = projection_.divergence(state_, dt_);
   }
   extend_velocity();
@@ -182,9 +182,8 @@ std::pair<double, double> Simulation<Dim>::adopt(flow::FlowState<Dim>&& state, c
 
 template <int Dim>
 void Simulation<Dim>::polish() {
-  const std::vector<char> all(static_cast<std::size_t>(forest_->n_blocks()) * BlockShape<Dim>::cells, 1);
   projection_.prepare(state_, mask_.get());
-  (void)projection_.repair(state_, mask_.get(), body_.twist, all, dt_, {mapped_divergence, 400});
+  (void)projection_.repair(state_, mask_.get(), body_.twist, nullptr, dt_, {mapped_divergence, 400});
   clock_.charge("mapping");
 }
 
