@@ -11,41 +11,12 @@
 namespace seaway::bench {
 namespace {
 
-/// The rule of the example's last stage, all cells multiplied by `scale`, its finest band `within`
-/// metres of the hull.
-sim::MeshRule mesh_rule(double scale, double within) {
-  sim::MeshRule rule;
-  rule.hull_cell = 0.005 * scale;
-  rule.surface = {{0.010 * scale, 0.0915}, {0.005 * scale, 0.061, within}};
-  return rule;
-}
-
-std::int64_t count(const sim::Model<2>& model, const sim::MeshRule& rule) {
-  return sim::make_forest<2>(model, rule, 1)->n_cells();
-}
-
-/// The coarsest rule that can reach the wanted number of cells, its finest band as long as needed.
-sim::MeshRule rule_for(const sim::Model<2>& model, std::int64_t cells) {
-  const double longest = 4.5;
-  double scale = 4;
-  while (scale > 1.0 / 16 && count(model, mesh_rule(scale, longest)) < cells) scale *= 0.5;
-  double low = 0.1, high = longest;
-  while (high - low > 0.02) {
-    const double middle = 0.5 * (low + high);
-    (count(model, mesh_rule(scale, middle)) < cells ? low : high) = middle;
-  }
-  const auto miss = [&](double within) {
-    return std::abs(count(model, mesh_rule(scale, within)) - cells);
-  };
-  return mesh_rule(scale, miss(low) < miss(high) ? low : high);
-}
-
 sim::Case bench_case(std::int64_t cells) {
   sim::Case c = validation::example_case();
   c.body.release = sim::Body::Release::at_start;
   c.body.angles = {5 * degree, 0, 0};
   c.stages.resize(1);
-  c.stages.front().mesh = rule_for(sim::make_model<2>(c), cells);
+  c.stages.front().mesh = validation::example_mesh(cells);
   return c;
 }
 

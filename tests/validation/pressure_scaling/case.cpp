@@ -35,14 +35,9 @@ Iterations iterations(const sim::MeshRule& mesh, int settle, int steps, int thre
 }  // namespace
 
 void run_pressure_scaling(const Context& context, Results& results) {
-  sim::MeshRule small, large;
-  small.hull_cell = 0.010;
-  small.surface = {{0.020, 0.061}};
-  large.hull_cell = 0.0025;
-  large.surface = {{0.005, 0.120}, {0.0025, 0.061, 1.6}};
   const int steps = context.quick() ? 20 : 60;
-  const Iterations few = iterations(small, 20, steps, context.threads);
-  const Iterations many = iterations(large, 10, steps, context.threads);
+  const Iterations few = iterations(example_mesh(20000), 20, steps, context.threads);
+  const Iterations many = iterations(example_mesh(300000), 10, steps, context.threads);
   // Ten iterations of a multigrid cycle each cost about as much as the rest of a step.
   results.expect_below("iterations_20k", few.mean, "1", 10);
   // Multigrid: hardly any growth with the number of cells.

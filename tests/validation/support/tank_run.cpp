@@ -104,4 +104,34 @@ sim::Case example_case() {
   return c;
 }
 
+namespace {
+
+/// The rule of the example's last stage, all cells multiplied by `scale`.
+sim::MeshRule scaled_mesh(double scale, double within) {
+  sim::MeshRule rule;
+  rule.hull_cell = 0.005 * scale;
+  rule.surface = {
+      {0.020 * scale, 0.12}, {0.010 * scale, 0.0915, 2 * within}, {0.005 * scale, 0.061, within}};
+  return rule;
+}
+
+}  // namespace
+
+sim::MeshRule example_mesh(std::int64_t cells) {
+  const sim::Model<2> model = sim::make_model<2>(example_case());
+  const auto count = [&](double scale, double within) {
+    return sim::make_forest<2>(model, scaled_mesh(scale, within), 1)->n_cells();
+  };
+  const double shortest = 0.05, longest = 6;
+  double scale = 4;
+  while (scale > 1.0 / 16 && count(scale, longest) < cells) scale *= 0.5;
+  double low = shortest, high = longest;
+  while (high - low > 0.02) {
+    const double middle = 0.5 * (low + high);
+    (count(scale, middle) < cells ? low : high) = middle;
+  }
+  const auto miss = [&](double within) { return std::abs(count(scale, within) - cells); };
+  return scaled_mesh(scale, miss(low) < miss(high) ? low : high);
+}
+
 }  // namespace seaway::validation

@@ -55,4 +55,8 @@ sim::Case barge_in_plain_tank(double h, double roll);
 /// The example case of the project: damaged section in beam waves.
 sim::Case example_case();
 
+/// For the example: meshes like that of its last stage, about `cells` cells (met to a tenth from 20
+/// k to 500 k). Cells by halvings, the rest by the length of the finest bands.
+sim::MeshRule example_mesh(std::int64_t cells);
+
 }  // namespace seaway::validation
