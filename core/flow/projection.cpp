@@ -1,5 +1,6 @@
 #include "core/flow/projection.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/field/restrict.hpp"
@@ -45,6 +46,45 @@ template <int Dim>
 int side_neighbour(const mesh::Block<Dim>& block, int axis, int side) {
   return block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
 }
+
+/// The leaf that holds cell `i` of block b, or the one beyond its side along `axis`; `i` becomes the cell there.
+/// Negative outside the tank and where finer leaves are.
+template <int Dim>
+int leaf_cell(const Forest<Dim>& forest, int b, int axis, IVec<Dim>& i) {
+  constexpr int n = BlockShape<Dim>::n;
+  if (i[axis] >= 0 && i[axis] < n) return b;
+  const auto& block = forest.block(b);
+  const int side = i[axis] < 0 ? 0 : 1;
+  const int at = side_neighbour<Dim>(block, axis, side);
+  if (at == mesh::coarser_neighbour) {
+    const auto from = linear::coarse_side<Dim>(forest, block, axis, side);
+    for (int a = 0; a < Dim; ++a) i[a] = a == axis ? from.base[a] : from.base[a] + i[a] / 2;
+    return from.block;
+  }
+  if (at < 0 || !forest.block(at).leaf) return mesh::no_block;
+  i[axis] += side == 0 ? n : -n;
+  return at;
+}
+
+/// Cells joined by faces with a coefficient, as a forest of representatives.
+class Regions {
+ public:
+  explicit Regions(std::size_t n) : of_(n) {
+    for (std::size_t i = 0; i < n; ++i) of_[i] = i;
+  }
+  std::size_t find(std::size_t i) {
+    while (of_[i] != i) i = of_[i] = of_[of_[i]];
+    return i;
+  }
+  void join(std::size_t a, std::size_t b) {
+    a = find(a);
+    b = find(b);
+    if (a != b) of_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> of_;
+};
 
 }  // namespace
 
@@ -166,7 +206,7 @@ void Projection<Dim>::prepare(const FlowState<Dim>& state, const HullMask<Dim>* 
       }
     }
   });
-  if (free_cells) {  // a face may change only between two free cells of the same size
+  if (free_cells) {  // a face may change only between two free cells
     const auto is_free = [&](int b, const IVec<Dim>& i) {
       return (*free_cells)[static_cast<std::size_t>(b) * BlockShape<Dim>::cells +
                            static_cast<std::size_t>(offset<Dim>(i, cell_strides<Dim>()))] != 0;
@@ -180,12 +220,8 @@ void Projection<Dim>::prepare(const FlowState<Dim>& state, const HullMask<Dim>* 
           for (int side = 0; side < 2 && open; ++side) {
             IVec<Dim> cell = i;
             cell[axis] -= 1 - side;
-            int at = b;
-            if (cell[axis] < 0 || cell[axis] >= n) {
-              at = side_neighbour<Dim>(block, axis, cell[axis] < 0 ? 0 : 1);
-              cell[axis] += cell[axis] < 0 ? n : -n;
-            }
-            open = at >= 0 && forest_.block(at).leaf && is_free(at, cell);
+            const int at = leaf_cell<Dim>(forest_, b, axis, cell);
+            open = at >= 0 && is_free(at, cell);
           }
           if (!open) c[offset<Dim>(i, face_strides<Dim>(axis))] = 0;
         });
@@ -320,48 +356,43 @@ linear::SolveReport Projection<Dim>::project(FlowState<Dim>& state, const HullMa
   return report;
 }
 
-/// Each connected set of cells that may change is closed: only what sums to zero in it can be removed, and
-/// nothing in cells that are shut. The rest (of the size of the old solve's residual) would make the
-/// singular system inconsistent, and conjugate gradients diverge on that.
+/// All sides of a region of free cells are given: what flows in there at large, of the order of the tolerance of
+/// the projections before, cannot be repaired, and would let conjugate gradients run away. It stays, spread
+/// evenly; cells that nothing can change drop out.
 template <int Dim>
-void Projection<Dim>::make_consistent(CellField<double, Dim>& b) const {
-  constexpr int n = BlockShape<Dim>::n, cells = BlockShape<Dim>::cells;
-  std::vector<char> seen(b.data().size(), 0);
-  std::vector<std::pair<int, IVec<Dim>>> set;
-  const auto index = [](int block, const IVec<Dim>& i) {
-    return static_cast<std::size_t>(block) * cells + static_cast<std::size_t>(offset<Dim>(i, cell_strides<Dim>()));
+void Projection<Dim>::remove_region_means() {
+  constexpr int cells = BlockShape<Dim>::cells;
+  const auto index = [](int b, const IVec<Dim>& i) {
+    return static_cast<std::size_t>(b) * cells + static_cast<std::size_t>(offset<Dim>(i, cell_strides<Dim>()));
   };
-  for (const int leaf : forest_.leaves()) {
-    for_box<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& first) {
-      if (seen[index(leaf, first)]) return;
-      seen[index(leaf, first)] = 1;
-      set.assign(1, {leaf, first});
-      double sum = 0, volume = 0;
-      for (std::size_t k = 0; k < set.size(); ++k) {
-        const auto [at, i] = set[k];
-        const auto& block = forest_.block(at);
-        sum += b.data()[index(at, i)];
-        volume += block.cell_volume();
-        for (int axis = 0; axis < Dim; ++axis) {
-          const float* c = operator_.coefficients().block(axis, at) + offset<Dim>(i, face_strides<Dim>(axis));
-          for (int side = 0; side < 2; ++side) {
-            if (!(c[side * face_strides<Dim>(axis)[axis]] > 0)) continue;
-            IVec<Dim> next = i;
-            next[axis] += side == 0 ? -1 : 1;
-            int to = at;
-            if (next[axis] < 0 || next[axis] >= n) {
-              to = side_neighbour<Dim>(block, axis, side);
-              if (to < 0 || !forest_.block(to).leaf) continue;
-              next[axis] += side == 0 ? n : -n;
-            }
-            if (seen[index(to, next)]) continue;
-            seen[index(to, next)] = 1;
-            set.emplace_back(to, next);
-          }
+  Regions regions(rhs_.data().size());
+  for (const int b : forest_.leaves()) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      const float* c = operator_.coefficients().block(axis, b);
+      for_box<Dim>(filled<Dim>(0), faces_upper<Dim>(axis), [&](const IVec<Dim>& i) {
+        if (!(c[offset<Dim>(i, face_strides<Dim>(axis))] > 0)) return;
+        IVec<Dim> lower = i, upper = i;
+        --lower[axis];
+        const int below = leaf_cell<Dim>(forest_, b, axis, lower), above = leaf_cell<Dim>(forest_, b, axis, upper);
+        if (below >= 0 && above >= 0) regions.join(index(below, lower), index(above, upper));
+      });
+    }
+  }
+  std::vector<double> sum(rhs_.data().size(), 0.0), volume(rhs_.data().size(), 0.0);
+  for (int pass = 0; pass < 2; ++pass) {
+    for (const int b : forest_.leaves()) {
+      const double v = forest_.block(b).cell_volume();
+      for (int i = 0; i < cells; ++i) {
+        const std::size_t at = static_cast<std::size_t>(b) * cells + static_cast<std::size_t>(i);
+        const std::size_t region = regions.find(at);
+        if (pass == 0) {
+          sum[region] += rhs_.data()[at];
+          volume[region] += v;
+        } else {
+          rhs_.data()[at] -= sum[region] / volume[region] * v;
         }
       }
-      for (const auto& [at, i] : set) b.data()[index(at, i)] -= sum / volume * forest_.block(at).cell_volume();
-    });
+    }
   }
 }
 
@@ -391,7 +422,7 @@ linear::SolveReport Projection<Dim>::repair(FlowState<Dim>& state, const HullMas
   }
   operator_.rigid() = {};
   right_side(state, dt, rhs_);
-  if (free_cells) make_consistent(rhs_);
+  if (free_cells) remove_region_means();
   CellField<double, Dim> potential(forest_);
   const auto report = cg_.solve(operator_, multigrid_, rhs_, potential, options.tolerance / (dt * dt),
                                 options.max_iterations);

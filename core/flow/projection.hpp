@@ -50,8 +50,8 @@ class Projection {
   double divergence(const FlowState<Dim>& state, double dt) const;
 
  private:
+  void remove_region_means();
   void right_side(const FlowState<Dim>& state, double dt, CellField<double, Dim>& b) const;
-  void make_consistent(CellField<double, Dim>& b) const;
   void correct(FlowState<Dim>& state, const CellField<double, Dim>& p, double dt, bool mixture_too) const;
   const Forest<Dim>& forest_;
   FluidProperties fluids_;

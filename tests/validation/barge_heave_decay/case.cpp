@@ -10,6 +10,7 @@ namespace seaway::validation {
 namespace {
 
 constexpr double h = 0.01;
+constexpr double waves_return = 2;  // [s]
 
 sim::Case body_of(double density_ratio) {
   sim::Case c = barge_case(h, 0);
@@ -23,8 +24,9 @@ struct Outcome {
   Record heave;
 };
 
-/// Let go 20 mm above where it floats: stable if no swing is larger than the one before it, apart
-/// from a twentieth of the start that reflections and the grid may add once it has come to rest.
+/// Let go 20 mm above where it floats. A swing is the way from one turning point to the next.
+/// Stable if each is smaller than the one before, and once waves have come back from the ends of
+/// the tank (7 m at 3 m/s, the speed of the longest) none is larger than a quarter of the first.
 Outcome bob(double density_ratio, double duration, int threads) {
   sim::Case c = body_of(density_ratio);
   c.body.draft = 0.1 * density_ratio;
@@ -36,10 +38,13 @@ Outcome bob(double density_ratio, double duration, int threads) {
     out.heave.add(run->time(), displacement(*run)[1]);
   }
   out.stable = true;
-  double before = 0.02;
+  double before = 0.02, last_swing = 1e9, first_swing = 0;
   for (const TurningPoint& p : turning_points(out.heave)) {
-    out.stable = out.stable && std::abs(p.value) < before + 0.001;
-    before = std::abs(p.value);
+    const double swing = std::abs(p.value - before);
+    if (first_swing == 0) first_swing = swing;
+    out.stable = out.stable && swing < (p.t < waves_return ? last_swing : 0.25 * first_swing);
+    before = p.value;
+    last_swing = swing;
   }
   return out;
 }
