@@ -43,13 +43,18 @@ void set_deadline(grpc::ClientContext& context, int seconds) {
   context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(seconds));
 }
 
+/// All calls of the service can be repeated, so a connection that breaks (a restart of the server) is tried again.
 template <class Response, class Call>
 Response unary(Call call, int seconds = 10) {
-  grpc::ClientContext context;
-  set_deadline(context, seconds);
-  Response response;
-  check(call(&context, &response));
-  return response;
+  for (int attempt = 1;; ++attempt) {
+    grpc::ClientContext context;
+    set_deadline(context, seconds);
+    Response response;
+    const grpc::Status status = call(&context, &response);
+    if (status.ok()) return response;
+    if (status.error_code() != grpc::StatusCode::UNAVAILABLE || attempt == 5) throw RpcError(status);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100 * attempt));
+  }
 }
 
 }  // namespace
@@ -74,6 +79,7 @@ JobClient::JobClient(const std::string& server) {
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2'000);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2'000);  // also the time that a connection may take
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   arguments.SetMaxReceiveMessageSize(64 << 20);
   channel_ = grpc::CreateCustomChannel(server, grpc::InsecureChannelCredentials(), arguments);
@@ -85,14 +91,7 @@ JobClient::JobClient(const std::string& server) {
 }
 
 v1::CreateJobResponse JobClient::create(const v1::CreateJobRequest& request) {
-  for (int attempt = 1;; ++attempt) {
-    try {
-      return unary<v1::CreateJobResponse>([&](auto* c, auto* r) { return jobs_->CreateJob(c, request, r); }, 60);
-    } catch (const RpcError& error) {
-      if (error.status() != grpc::StatusCode::UNAVAILABLE || attempt == 5) throw;
-      std::this_thread::sleep_for(std::chrono::milliseconds(200 * attempt));
-    }
-  }
+  return unary<v1::CreateJobResponse>([&](auto* c, auto* r) { return jobs_->CreateJob(c, request, r); }, 60);
 }
 
 v1::Job JobClient::get(const std::string& name, v1::JobView view) {

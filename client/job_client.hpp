@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The service as the commands see it: one call a function, deadlines, and failures as exceptions.
+// The service as the commands see it: one call a function, deadlines, failures as exceptions. A call that
+// finds the connection broken is repeated for about a second.
 #pragma once
 
 #include <grpcpp/channel.h>

@@ -17,7 +17,9 @@ endif()
 
 find_program(SEAWAY_CCACHE ccache)
 if(SEAWAY_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${SEAWAY_CCACHE})
+  # Paths relative to the source folder: several checkouts share one cache.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
+      ${SEAWAY_CCACHE})
 endif()
 
 add_library(seaway_flags INTERFACE)

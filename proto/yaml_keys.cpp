@@ -78,7 +78,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   std::size_t best_distance = std::string::npos;
   for (const std::string& candidate : known) {
     const std::size_t d = distance(word, candidate);
-    if (d < best_distance && d <= std::max<std::size_t>(1, candidate.size() / 3)) {
+    const std::size_t largest = candidate.size() < 4 ? 1 : std::max<std::size_t>(2, candidate.size() / 3);
+    if (d < best_distance && d <= largest) {
       best = candidate;
       best_distance = d;
     }

@@ -21,7 +21,7 @@ std::string unit_words(std::string_view unit);
 /// What to do about an unknown key: another unit, a slip of the pen, or the list of keys.
 std::string advise_key(std::string_view key, const std::vector<std::string>& known);
 
-/// The known word within a third of its letters of `word`, or empty.
+/// The known word that differs from `word` in at most a third of its letters (or two), or empty.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace seaway::yaml

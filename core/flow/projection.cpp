@@ -398,9 +398,9 @@ void Projection<Dim>::remove_region_means() {
 
 template <int Dim>
 linear::SolveReport Projection<Dim>::repair(FlowState<Dim>& state, const HullMask<Dim>* mask,
-                                            const motion::Twist<Dim>& twist, const std::vector<char>& free_cells,
+                                            const motion::Twist<Dim>& twist, const std::vector<char>* free_cells,
                                             double dt, const ProjectionOptions& options) {
-  if (mask) {
+  if (mask && free_cells) {
     const auto& window = mask->window();
     std::vector<double> w;
     for (int axis = 0; axis < Dim; ++axis) {
@@ -412,8 +412,8 @@ linear::SolveReport Projection<Dim>::repair(FlowState<Dim>& state, const HullMas
         const auto at = static_cast<std::size_t>(window.at(i));
         IVec<Dim> below = i;
         --below[axis];
-        if (aperture[at] > 0 || !free_cells[static_cast<std::size_t>(window.global_cell(i))] ||
-            !free_cells[static_cast<std::size_t>(window.global_cell(below))])
+        if (aperture[at] > 0 || !(*free_cells)[static_cast<std::size_t>(window.global_cell(i))] ||
+            !(*free_cells)[static_cast<std::size_t>(window.global_cell(below))])
           return;
         w[at] = motion::velocity_at<Dim>(twist, mask->half().pose, window.face_centre(i, axis))[axis];
       });
@@ -422,7 +422,7 @@ linear::SolveReport Projection<Dim>::repair(FlowState<Dim>& state, const HullMas
   }
   operator_.rigid() = {};
   right_side(state, dt, rhs_);
-  remove_region_means();
+  if (free_cells) remove_region_means();
   CellField<double, Dim> potential(forest_);
   const auto report = cg_.solve(operator_, multigrid_, rhs_, potential, options.tolerance / (dt * dt),
                                 options.max_iterations);

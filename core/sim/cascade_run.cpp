@@ -263,6 +263,7 @@ void CascadeRun<Dim>::map_to_stage(int index) {
   const Stage& stage = case_.stages[static_cast<std::size_t>(index)];
   const double cpu_before = process_cpu_seconds();
   auto old = std::move(simulation_);
+  old->polish();
   auto forest = make_forest(*model_, stage.mesh, context_.threads);
   transfer::FlowFields<Dim> from, to;
   from.vof = std::move(old->state().vof);

@@ -77,7 +77,7 @@ struct Hull {
   enum class Shape { none, box, rounded_box, polygon, offsets_section };
   Shape shape = Shape::none;
   double beam = 0, height = 0, corner_radius = 0;  ///< box, rounded_box [m]
-  std::vector<std::array<double, 2>> vertices;     ///< polygon (y, z), closed, anticlockwise [m]
+  std::vector<std::array<double, 2>> vertices;     ///< polygon (y, z), last corner = first [m]
   std::string offsets_file;                        ///< offsets_section: table of half-breadths
   double station = 0;                              ///< x of the section in the table's unit
   double scale = 1;                                ///< table lengths are divided by this

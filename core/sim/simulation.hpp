@@ -92,6 +92,9 @@ class Simulation {
   std::pair<double, double> adopt(flow::FlowState<Dim>&& state, const BodyState<Dim>& body, double time,
                                   std::int64_t step, double dt, const std::map<int, double>& reservoirs,
                                   const std::vector<char>* free_cells);
+  /// Before the flow is mapped to another mesh: brings dt |div w| to 1e-10 everywhere, so that refined regions
+  /// inherit boundary fluxes that add up to nothing.
+  void polish();
   /// From a checkpoint: all state as saved; continues to the bit.
   void restore(flow::FlowState<Dim>&& state, const BodyState<Dim>& body, double time, std::int64_t step,
                double dt, double next_dt, double exchanged, const std::map<int, double>& reservoirs);

@@ -76,6 +76,7 @@ void read_zones(const v1::Zones& m, sim::Zones& zones, Checker& check) {
     zones.generation_length = check.number("zones.generation_length_m", m.generation_length_m(), not_negative);
   if (m.has_absorption_length_m())
     zones.absorption_length = check.number("zones.absorption_length_m", m.absorption_length_m(), not_negative);
+  if (m.absorption_target() == v1::Zones::TARGET_REST) zones.absorption_target = sim::Zones::Target::rest;
   if (m.has_rate_per_s()) zones.rate = check.number("zones.rate_per_s", m.rate_per_s(), not_negative);
 }
 

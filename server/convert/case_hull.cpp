@@ -22,19 +22,16 @@ double signed_area(const std::vector<std::array<double, 2>>& corners) {
 
 void read_polygon(const v1::PolygonShape& m, sim::Hull& hull, Checker& check) {
   const std::string path = "hull.polygon.vertices";
-  check.entries(path, m.vertices_size(), 3, 10000);
+  check.entries(path, m.vertices_size(), 4, 10000);
   for (const v1::Vertex& v : m.vertices()) hull.vertices.push_back({v.y_m(), v.z_m()});
-  if (hull.vertices.size() > 3 && hull.vertices.front() == hull.vertices.back()) {
-    check.problem(fmt::format("{}[{}]", path, hull.vertices.size() - 1), "repeats the first corner",
-                  "leave it out; the last corner joins the first");
+  if (hull.vertices.size() < 4 || !check.ok()) return;
+  if (hull.vertices.front() != hull.vertices.back()) {
+    check.problem(fmt::format("{}[{}]", path, hull.vertices.size() - 1), "the outline is open: its last corner is not its first",
+                  "end the list with the first corner again");
     return;
   }
-  if (hull.vertices.size() < 3 || !check.ok()) return;
-  const double area = signed_area(hull.vertices);
-  if (area == 0)
+  if (signed_area(hull.vertices) == 0)
     check.problem(path, "the corners enclose no area", "give the corners of a closed outline");
-  else if (area < 0)
-    check.problem(path, "the corners run clockwise", "list them anticlockwise (y to the right, z up)");
 }
 
 void read_shape(const v1::Hull& m, int dim, sim::Hull& hull, Checker& check) {

@@ -177,6 +177,7 @@ v1::Case to_proto(const sim::Case& c) {
   m.mutable_zones()->set_generation_length_m(c.zones.generation_length);
   m.mutable_zones()->set_absorption_length_m(c.zones.absorption_length);
   m.mutable_zones()->set_rate_per_s(c.zones.rate);
+  m.mutable_zones()->set_absorption_target(static_cast<v1::Zones::Target>(static_cast<int>(c.zones.absorption_target) + 1));
   if (c.hull.shape != sim::Hull::Shape::none) {
     put_hull(c.hull, c.dim, *m.mutable_hull());
     put_body(c.body, c.dim, *m.mutable_body());

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "server/jobs/worker_pool.hpp"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include "core/base/error.hpp"
 
 namespace seaway::jobs {
@@ -40,6 +43,8 @@ void WorkerPool::drain() {
 }
 
 void WorkerPool::work() {
+  // The solver takes every core it gets; calls of clients must not wait for it. Its own threads inherit this.
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), ::getpriority(PRIO_PROCESS, 0) + 5);
   for (;;) {
     {
       std::unique_lock lock(mutex_);

@@ -10,8 +10,8 @@ namespace seaway::rpc {
 namespace {
 
 // A reader that stops costs the server one message: keep it small.
-constexpr std::size_t message_bytes = 8 * 1024;
-constexpr std::size_t recent_chunks = 4;
+constexpr std::size_t message_bytes = 2 * 1024;
+constexpr std::size_t recent_chunks = 16;
 
 }  // namespace
 

@@ -44,6 +44,7 @@ Database::Database(const std::string& path, Role role) {
       execute("PRAGMA foreign_keys=ON");
     } else {
       execute("PRAGMA query_only=1");
+      execute("PRAGMA cache_size=-256");  // histories are read once, in order
     }
     // Only the writer may checkpoint: before SQLite 3.51.3 two connections that write or checkpoint at the
     // same moment can corrupt the log.

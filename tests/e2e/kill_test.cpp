@@ -97,8 +97,8 @@ TEST(Kill, LosesNoAcknowledgedJobAndNoReceivedSample) {
   EXPECT_FALSE(witness.gap());
   JobClient client(daemon.address());
   for (const std::string& name : acknowledged) {
-    EXPECT_NO_THROW(client.get(name));
-    if (name != acknowledged.front()) client.cancel(name);
+    const auto job = client.get(name);
+    if (job.state() == v1::Job::STATE_QUEUED) client.cancel(name);
   }
   EXPECT_GE(client.get(acknowledged.front()).attempt(), 2);
   const std::string final_history = csv(client, acknowledged.front());

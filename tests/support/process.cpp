@@ -102,16 +102,19 @@ Finished run_program(std::vector<std::string> command, std::vector<std::string> 
   return out;
 }
 
-Daemon::Daemon(std::string program, std::string folder, std::vector<std::string> environment)
-    : program_(std::move(program)), folder_(std::move(folder)), environment_(std::move(environment)) {}
+Daemon::Daemon(std::string program, std::string folder, std::vector<std::string> environment,
+               std::vector<std::string> arguments)
+    : program_(std::move(program)), folder_(std::move(folder)), environment_(std::move(environment)),
+      arguments_(std::move(arguments)) {}
 
 void Daemon::start() {
   const std::string file = folder_ + "/address";
   fs::remove(file);
   const std::string port = address_.empty() ? "0" : address_.substr(address_.rfind(':') + 1);
+  std::vector<std::string> command{program_, "--data-dir", folder_ + "/data", "--port", port, "--address-file", file};
+  command.insert(command.end(), arguments_.begin(), arguments_.end());
   process_.clear();
-  process_.emplace_back(std::vector<std::string>{program_, "--data-dir", folder_ + "/data", "--port", port, "--address-file", file},
-                        folder_ + "/log.txt", environment_);
+  process_.emplace_back(std::move(command), folder_ + "/log.txt", environment_);
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (!fs::exists(file)) {
     if (process_.front().wait_for(poll) >= 0 || std::chrono::steady_clock::now() > deadline)

@@ -41,7 +41,9 @@ Finished run_program(std::vector<std::string> command, std::vector<std::string> 
 /// seawayd on a free port with its data in a folder.
 class Daemon {
  public:
-  Daemon(std::string program, std::string folder, std::vector<std::string> environment = {});
+  /// `arguments`: beside those for data, port and address file.
+  Daemon(std::string program, std::string folder, std::vector<std::string> environment = {},
+         std::vector<std::string> arguments = {});
   /// Starts it and waits until it listens. The port stays the same over restarts.
   void start();
   void kill();         ///< SIGKILL
@@ -51,7 +53,7 @@ class Daemon {
 
  private:
   const std::string program_, folder_;
-  const std::vector<std::string> environment_;
+  const std::vector<std::string> environment_, arguments_;
   std::string address_;
   std::vector<Process> process_;  // none or one
 };

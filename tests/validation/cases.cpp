@@ -4,8 +4,28 @@ namespace seaway::validation {
 
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases{
+      {"still_water", Suite::quick, "calm water in a closed tank stays calm", run_still_water},
+      {"barge_at_rest", Suite::quick, "a hull in calm water makes no currents and stays put",
+       run_barge_at_rest},
+      {"barge_roll_decay", Suite::quick,
+       "roll decay of the barge of Jung et al.: period, turning points, volume, noise, cost",
+       run_barge_roll_decay},
+      {"barge_heave_decay", Suite::quick, "heave of light and heavy bodies is stable",
+       run_barge_heave_decay},
+      {"flooding", Suite::quick, "a damaged compartment fills, its sealed neighbour stays dry",
+       run_flooding},
+      {"wave_train", Suite::quick, "a regular wave keeps height and speed over ten periods",
+       run_wave_train},
+      {"beach", Suite::quick, "what a damping zone sends back", run_beach},
+      {"dam_break", Suite::quick, "surge front of a column against Martin & Moyce", run_dam_break},
+      {"pressure_scaling", Suite::quick, "iterations of the pressure solve, 20 k to 300 k cells",
+       run_pressure_scaling},
       {"mapping", Suite::quick,
        "fields from one mesh to the next: kept, conserved, bounded, accurate", run_mapping},
+      {"threads", Suite::quick, "the number of threads changes no bit", run_threads},
+      {"cascade_section", Suite::full,
+       "the example through three meshes against the finest alone: amplitudes, CPU time saved",
+       run_cascade_section},
   };
   return cases;
 }

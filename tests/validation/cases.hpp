@@ -22,6 +22,7 @@ enum class Suite {
 struct Context {
   int threads = 1;
   Suite suite = Suite::full;  ///< a case may do less in the quick suite; it says so in its README
+  std::string results;        ///< folder in which long cases keep finished runs; empty: none
   bool quick() const { return suite == Suite::quick; }
 };
 
@@ -34,6 +35,17 @@ struct Case {
 
 const std::vector<Case>& all_cases();
 
+void run_still_water(const Context& context, Results& results);
+void run_barge_at_rest(const Context& context, Results& results);
+void run_barge_roll_decay(const Context& context, Results& results);
+void run_barge_heave_decay(const Context& context, Results& results);
+void run_flooding(const Context& context, Results& results);
+void run_wave_train(const Context& context, Results& results);
+void run_beach(const Context& context, Results& results);
+void run_dam_break(const Context& context, Results& results);
+void run_pressure_scaling(const Context& context, Results& results);
 void run_mapping(const Context& context, Results& results);
+void run_threads(const Context& context, Results& results);
+void run_cascade_section(const Context& context, Results& results);
 
 }  // namespace seaway::validation

@@ -83,6 +83,10 @@ int main(int argc, char** argv) {
           ->transform(CLI::CheckedTransformer(suites).description("quick|full|ships"));
   app.add_option("--threads", context.threads, "threads; no result depends on them")
       ->check(CLI::Range(1, 256));
+  app.add_option(
+      "--results", context.results,
+      "folder in which long cases keep finished runs, tables and pictures; what is there "
+      "is not run again");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"outputs.gauges[1].name",
                 [](v1::Case& m) { m.mutable_outputs()->add_gauges()->set_name("bow"); }}));
 
-TEST(ConvertCase, RefusesOpenAndClockwisePolygons) {
+TEST(ConvertCase, RefusesOpenAndFlatPolygons) {
   v1::Case m = small();
   auto& polygon = *m.mutable_hull()->mutable_polygon();
   const auto add = [&](double y, double z) {
@@ -129,10 +129,11 @@ TEST(ConvertCase, RefusesOpenAndClockwisePolygons) {
   add(0, 0);
   add(0, 1);
   EXPECT_THAT(refused_fields(m), ::testing::Contains("hull.polygon.vertices"));
-  add(1, 1);
-  EXPECT_THAT(refused_fields(m), ::testing::Contains("hull.polygon.vertices"));  // clockwise
+  add(0, 2);
   add(0, 0);
-  EXPECT_THAT(refused_fields(m), ::testing::Contains("hull.polygon.vertices[3]"));
+  EXPECT_THAT(refused_fields(m), ::testing::Contains("hull.polygon.vertices"));  // no area
+  add(1, 1);
+  EXPECT_THAT(refused_fields(m), ::testing::Contains("hull.polygon.vertices[4]"));  // open
 }
 
 TEST(ConvertResult, TurnsRadiansIntoDegreesAtTheEdge) {

@@ -182,7 +182,7 @@ void repair(double tolerance) {
   projection.mixture_velocity(state, &mask, twist);
   const double before = projection.divergence(state, dt);
   projection.prepare(state, &mask, &free_cells);
-  const auto report = projection.repair(state, &mask, twist, free_cells, dt, {1e-10, 400});
+  const auto report = projection.repair(state, &mask, twist, &free_cells, dt, {1e-10, 400});
   EXPECT_TRUE(report.converged);
   EXPECT_GT(before, 1e-4);
   EXPECT_LT(projection.divergence(state, dt), 1.1 * tolerance);

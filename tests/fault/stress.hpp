@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the cases of seaway-stress share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/job_client.hpp"
+#include "tests/support/process.hpp"
+
+namespace seaway::stress {
+
+struct Settings {
+  std::string seawayd, seaway_run, case_file;
+  int clients = 100;
+  int kills = 10;
+  int threads = 1;                   ///< of the solver
+  double seconds = 120;              ///< longest time to watch a run; it is cancelled then
+  double checkpoint_interval_s = 5;
+  unsigned seed = 1;
+  bool json = false;
+};
+
+/// One line of the result; `pass` is value <= reference.
+struct Line {
+  std::string name, quantity;
+  double value = 0;
+  std::string unit;
+  double reference = 0;
+  double cpu_s = 0;
+};
+void print(const Line& line, bool json);
+
+std::vector<Line> watch(const Settings& settings);
+std::vector<Line> get_job(const Settings& settings);
+std::vector<Line> kill(const Settings& settings);
+
+/// The case file as a request with a new id, with the table that it names.
+v1::CreateJobRequest request_of(const std::string& case_file);
+/// Options of seawayd for these settings, as a file in `folder`.
+std::vector<std::string> daemon_arguments(const Settings& settings, const std::string& folder);
+/// A channel that shares its connection with nobody.
+std::shared_ptr<grpc::Channel> own_channel(const std::string& address);
+/// The stored history as CSV without its header.
+std::string history_csv_of(client::JobClient& client, const std::string& job);
+
+}  // namespace seaway::stress

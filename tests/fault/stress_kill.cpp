@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// kill: kill -9 of seawayd at random moments of a run. What was acknowledged and what a client has received
+// must survive, and the final history must be that of an unbroken run.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <random>
+#include <thread>
+
+#include "tests/fault/stress.hpp"
+#include "tests/fault/witness.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace seaway::stress {
+namespace {
+
+std::int64_t count_lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+/// Lines of `seen` that are not where they should be in `stored`.
+std::int64_t lost_lines(const std::string& seen, const std::string& stored) {
+  if (stored.starts_with(seen)) return 0;
+  std::int64_t lost = 0;
+  for (std::size_t a = 0, b = 0; a < seen.size();) {
+    const std::size_t a_end = seen.find('\n', a), b_end = stored.find('\n', b);
+    const bool same = b < stored.size() && seen.compare(a, a_end - a, stored, b, b_end - b) == 0;
+    lost += same ? 0 : 1;
+    a = a_end + 1;
+    b = b_end == std::string::npos ? stored.size() : b_end + 1;
+  }
+  return lost;
+}
+
+}  // namespace
+
+std::vector<Line> kill(const Settings& s) {
+  const testing::TempFolder folder;
+  std::fprintf(stderr, "kill: seed %u\n", s.seed);
+  std::mt19937 random(s.seed);
+  testing::Daemon daemon(s.seawayd, folder.path(), {}, daemon_arguments(s, folder.path()));
+  daemon.start();
+  std::vector<std::string> acknowledged;
+  const auto submit = [&] {
+    client::JobClient client(daemon.address());
+    const auto request = request_of(s.case_file);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    for (;;) {
+      try {
+        acknowledged.push_back(client.create(request).job().name());
+        return;
+      } catch (const client::RpcError& error) {
+        // On a busy machine the connection to a server that has just begun takes its time.
+        if (error.code() != client::exit_unreachable || std::chrono::steady_clock::now() > deadline) throw;
+      }
+    }
+  };
+  int done = 0;
+  std::int64_t samples_lost = 0;
+  std::vector<std::string> histories;
+  // A short case may end before all kills have hit it: then it runs again.
+  for (int round = 0; done < s.kills && round < s.kills; ++round) {
+    const std::size_t first = acknowledged.size();
+    submit();
+    Witness witness(daemon.address(), acknowledged.back());
+    std::vector<double> moments;
+    for (int i = done; i < s.kills; ++i) moments.push_back(std::uniform_real_distribution<>(0.0, 0.98)(random));
+    std::sort(moments.begin(), moments.end());
+    for (const double moment : moments) {
+      while (witness.fraction() < moment && !witness.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      std::this_thread::sleep_for(std::chrono::microseconds(random() % 100'000));
+      if (witness.ended()) break;
+      submit();
+      daemon.kill();
+      daemon.start();
+      ++done;
+    }
+    const std::string& seen = witness.wait();
+    client::JobClient client(daemon.address());
+    histories.push_back(history_csv_of(client, acknowledged[first]));
+    samples_lost += lost_lines(seen, histories.back());
+    for (std::size_t i = first + 1; i < acknowledged.size(); ++i) {
+      try {
+        client.cancel(acknowledged[i]);
+      } catch (const client::RpcError&) {
+        // It has run meanwhile, or it is lost; that is counted below.
+      }
+    }
+  }
+  client::JobClient client(daemon.address());
+  int jobs_lost = 0;
+  for (const std::string& name : acknowledged) {
+    try {
+      client.get(name);
+    } catch (const client::RpcError& error) {
+      jobs_lost += error.status() == grpc::StatusCode::NOT_FOUND ? 1 : 0;
+    }
+  }
+  daemon.terminate();
+  const auto unbroken = testing::run_program({s.seaway_run, s.case_file, "-o", folder / "unbroken", "-q", "--threads", std::to_string(s.threads)});
+  std::string expected = testing::read_text(folder / "unbroken/history.csv");
+  expected.erase(0, expected.find('\n') + 1);
+  std::fprintf(stderr, "kill: %d kills over %zu runs of %lld samples, %zu jobs acknowledged\n", done, histories.size(),
+               static_cast<long long>(count_lines(expected)), acknowledged.size());
+  if (unbroken.code != 0 || done < s.kills) throw std::runtime_error("kill: the run ended before it was killed often enough");
+  const auto different = std::count_if(histories.begin(), histories.end(), [&](const auto& h) { return h != expected; });
+  return {{"kill", "jobs_lost", static_cast<double>(jobs_lost), "1", 0, 0},
+          {"kill", "samples_lost", static_cast<double>(samples_lost), "1", 0, 0},
+          {"kill", "histories_different", static_cast<double>(different), "1", 0, 0}};
+}
+
+}  // namespace seaway::stress

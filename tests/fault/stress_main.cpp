@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// seaway-stress NAME... : the bars of the service on the real programs. Names: watch, get_job, kill.
+#include <grpcpp/create_channel.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "proto/history_csv.hpp"
+#include "proto/yaml.hpp"
+#include "tests/fault/stress.hpp"
+
+namespace seaway::stress {
+
+namespace fs = std::filesystem;
+
+void print(const Line& line, bool json) {
+  const bool pass = line.value <= line.reference;
+  if (json) {
+    const nlohmann::ordered_json out{{"case", line.name}, {"quantity", line.quantity}, {"value", line.value},
+                                     {"unit", line.unit}, {"reference", line.reference}, {"tolerance", 0},
+                                     {"pass", pass}, {"cpu_s", line.cpu_s}};
+    std::printf("%s\n", out.dump().c_str());
+  } else {
+    std::printf("%-4s %-8s %-20s %10.3f %-4s (at most %g)\n", pass ? "ok" : "FAIL", line.name.c_str(),
+                line.quantity.c_str(), line.value, line.unit.c_str(), line.reference);
+  }
+  std::fflush(stdout);
+}
+
+v1::CreateJobRequest request_of(const std::string& case_file) {
+  v1::CreateJobRequest request;
+  yaml::read_file(case_file, *request.mutable_case_());
+  if (const std::string& table = request.case_().hull().offsets_section().file(); !table.empty()) {
+    auto& file = *request.add_files();
+    file.set_name(table);
+    file.set_content(testing::read_text((fs::path(case_file).parent_path() / table).string()));
+  }
+  request.set_request_id(client::new_request_id());
+  return request;
+}
+
+std::vector<std::string> daemon_arguments(const Settings& settings, const std::string& folder) {
+  std::ofstream(folder + "/config.yaml") << "workers:\n  checkpoint_interval_s: " << settings.checkpoint_interval_s
+                                         << "\n  threads: " << settings.threads << "\n";
+  return {"--config", folder + "/config.yaml"};
+}
+
+std::shared_ptr<grpc::Channel> own_channel(const std::string& address) {
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+}
+
+std::string history_csv_of(client::JobClient& client, const std::string& job) {
+  std::string out;
+  client.history(job, [&](const v1::ReadSamplesResponse& page) { history_csv::append(page.chunk(), out); });
+  return out;
+}
+
+}  // namespace seaway::stress
+
+int main(int argc, char** argv) {
+  using namespace seaway::stress;
+  const std::map<std::string, std::vector<Line> (*)(const Settings&)> all{{"watch", watch}, {"get_job", get_job}, {"kill", kill}};
+  CLI::App app{"seaway-stress: measures the promises of the service", "seaway-stress"};
+  Settings s;
+  std::vector<std::string> names;
+  const std::string here = std::filesystem::canonical("/proc/self/exe").parent_path().string();
+  s.seawayd = here + "/seawayd";
+  s.seaway_run = here + "/seaway-run";
+  bool list = false;
+  app.add_option("NAME", names, "watch, get_job, kill");
+  app.add_flag("--list", list, "print the names");
+  app.add_option("--case", s.case_file, "case file (YAML)");
+  app.add_option("--seawayd", s.seawayd, "program of the server")->capture_default_str();
+  app.add_option("--seaway-run", s.seaway_run, "program of the unbroken run")->capture_default_str();
+  app.add_option("--clients", s.clients, "for watch")->capture_default_str();
+  app.add_option("--kills", s.kills, "for kill")->capture_default_str();
+  app.add_option("--threads", s.threads, "of the solver")->capture_default_str();
+  app.add_option("--seconds", s.seconds, "longest time to watch a run")->capture_default_str();
+  app.add_option("--checkpoint-interval", s.checkpoint_interval_s, "seconds")->capture_default_str();
+  app.add_option("--seed", s.seed, "of the random moments; 0: a new one");
+  app.add_flag("--json", s.json, "one JSON object a line");
+  CLI11_PARSE(app, argc, argv);
+  if (list) {
+    for (const auto& [name, run] : all) std::printf("%s\n", name.c_str());
+    return 0;
+  }
+  if (s.seed == 0) s.seed = std::random_device{}();
+  bool pass = true;
+  try {
+    if (names.empty() || s.case_file.empty()) throw std::runtime_error("give names and --case; see --help");
+    for (const std::string& name : names) {
+      if (all.count(name) == 0) throw std::runtime_error(name + " is unknown; see --list");
+      for (const Line& line : all.at(name)(s)) {
+        print(line, s.json);
+        pass = pass && line.value <= line.reference;
+      }
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "seaway-stress: %s\n", error.what());
+    return 2;
+  }
+  return pass ? 0 : 1;
+}

@@ -1,0 +1,130 @@
+// [cascade_section] The example through its three meshes and on the finest alone; see README.md.
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/validation/cascade_section/picture.hpp"
+#include "tests/validation/cascade_section/run_record.hpp"
+#include "tests/validation/cases.hpp"
+#include "tests/validation/support/tank_run.hpp"
+
+namespace seaway::validation {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder given with --results, else one that goes away with the case.
+class Workspace {
+ public:
+  explicit Workspace(const std::string& given)
+      : path_(given.empty() ? fs::temp_directory_path() /
+                                  ("seaway_cascade_section_" + std::to_string(::getpid()))
+                            : fs::path(given)),
+        keep_(!given.empty()) {
+    fs::create_directories(path_);
+  }
+  ~Workspace() {
+    std::error_code ignored;
+    if (!keep_) fs::remove_all(path_, ignored);
+  }
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+  bool keep_;
+};
+
+/// A run that an earlier call finished is read, not run again.
+RunRecord finished_run(const Workspace& workspace, const std::string& name, const sim::Case& c,
+                       int threads, const std::function<bool(double, int)>& enough) {
+  RunRecord record;
+  if (load(workspace.file(name + ".json"), record)) return record;
+  record = run_and_record(c, workspace.file(name), threads, enough);
+  save(record, workspace.file(name + ".json"));
+  return record;
+}
+
+/// A few seconds of the same, to see that it works: no bars.
+void shorten(sim::Case& c) {
+  c.body.release = sim::Body::Release::at_start;
+  for (sim::Stage& s : c.stages) {
+    s.end.kind = sim::EndRule::Kind::time;
+    s.end.duration = 0.1;
+  }
+}
+
+/// The finest mesh from the start, until the motions have converged by the rule of the cascade's
+/// last stage; then on, so that both runs can be compared at one time.
+sim::Case single_mesh(const sim::Case& cascade) {
+  sim::Case c = cascade;
+  sim::Stage answer = cascade.stages.back();
+  answer.name = "answer";
+  // It starts from a hull at rest: allow what the cascade allows in all its stages together.
+  if (answer.end.kind == sim::EndRule::Kind::converged) {
+    answer.end.max_periods = 0;
+    for (const sim::Stage& s : cascade.stages) answer.end.max_periods += s.end.max_periods;
+  }
+  sim::Stage rest = answer;
+  rest.name = "rest";
+  rest.end = {};
+  rest.end.duration = 1000;  // stopped when the cascade's end is reached
+  c.stages = {answer, rest};
+  return c;
+}
+
+double amplitude(const RunRecord& run, const std::vector<double>& signal, double end,
+                 double period) {
+  const Record last = run.between(signal, end - 3 * period, end);
+  return std::abs(harmonic(last, 2 * pi / period, 0));
+}
+
+}  // namespace
+
+void run_cascade_section(const Context& context, Results& results) {
+  const Workspace workspace(context.results);
+  sim::Case c = example_case();
+  if (context.quick()) shorten(c);
+  const RunRecord cascade = finished_run(workspace, "cascade", c, context.threads, {});
+  const double end = cascade.end_time();
+  const RunRecord single =
+      finished_run(workspace, "single", single_mesh(c), context.threads,
+                   [&](double t, int stage) { return stage > 0 && t >= end - 1e-9; });
+  if (!context.results.empty()) {
+    std::ofstream(workspace.file("table.md")) << table_of(cascade, single);
+    std::ofstream(workspace.file("histories.svg")) << picture_of(cascade, single);
+  }
+
+  const double period = c.wave.period, cpu = cascade.total_cpu_s;
+  const auto difference = [&](std::vector<double> RunRecord::*signal) {
+    const double reference = amplitude(single, single.*signal, end, period);
+    return std::abs(amplitude(cascade, cascade.*signal, end, period) / reference - 1);
+  };
+  const double roll = difference(&RunRecord::roll), heave = difference(&RunRecord::heave);
+  const double saved = 1 - cpu / single.cpu_until(end);
+  const double to_answer = 1 - cpu / single.cpu_until(single.stages.front().end);
+  const double mapping = cascade.mapping_cpu_s() / cpu;
+  if (context.quick()) {
+    results.report("cpu_saved", saved, "1");
+    results.report("mapping_share", mapping, "1");
+    return;
+  }
+  // 2 %: a tenth of what the mesh changes between the first and the last stage.
+  results.expect_below("roll_difference", roll, "1", 0.02);
+  results.expect_below("heave_difference", heave, "1", 0.02);
+  // What the method is for: half of the time at equal physical time, a third to the answer.
+  results.expect_above("cpu_saved", saved, "1", 0.5);
+  results.expect_above("cpu_saved_to_answer", to_answer, "1", 0.3);
+  results.expect_below("mapping_share", mapping, "1", 0.02);
+  results.report("roll_amplitude", amplitude(cascade, cascade.roll, end, period) / degree, "deg");
+  results.report("heave_amplitude", amplitude(cascade, cascade.heave, end, period), "m");
+  results.report("end_time", end, "s");
+  results.report("answer_time_single", single.stages.front().end, "s");
+  results.report("cpu_cascade", cpu, "s");
+  results.report("cpu_single", single.cpu_until(end), "s");
+}
+
+}  // namespace seaway::validation

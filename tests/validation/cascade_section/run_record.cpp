@@ -1,0 +1,124 @@
+#include "tests/validation/cascade_section/run_record.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.hpp"
+#include "core/sim/cascade.hpp"
+
+namespace seaway::validation {
+namespace {
+
+class Keeper : public sim::RunObserver {
+ public:
+  Keeper(std::stop_source& stop, const std::function<bool(double, int)>& enough)
+      : stop_(stop), enough_(enough), cpu_before_(process_cpu_seconds()) {}
+
+  void on_channels(const std::vector<sim::Channel>& channels) override {
+    const auto find = [&](const char* name) {
+      const auto at = std::find_if(channels.begin(), channels.end(),
+                                   [&](const sim::Channel& c) { return c.name == name; });
+      SEAWAY_CHECK(at != channels.end(), "the run has no channel '{}'", name);
+      return static_cast<std::size_t>(at - channels.begin());
+    };
+    roll_ = find("roll");
+    heave_ = find("heave");
+  }
+  void on_sample(const sim::Sample& sample) override {
+    record_.t.push_back(sample.time);
+    record_.roll.push_back(sample.values[roll_]);
+    record_.heave.push_back(sample.values[heave_]);
+    record_.cpu_s.push_back(process_cpu_seconds() - cpu_before_);
+    if (enough_ && enough_(sample.time, sample.stage)) stop_.request_stop();
+  }
+  void on_stage_finished(const sim::StageResult& r) override {
+    record_.stages.push_back({r.info.name, r.info.cells, r.steps, r.info.time, r.end_time, r.cpu_s,
+                              r.has_mapping ? r.mapping.cpu_s : 0, r.converged});
+  }
+  RunRecord finish() {
+    record_.total_cpu_s = process_cpu_seconds() - cpu_before_;
+    return std::move(record_);
+  }
+
+ private:
+  std::stop_source& stop_;
+  const std::function<bool(double, int)>& enough_;
+  double cpu_before_;
+  std::size_t roll_ = 0, heave_ = 0;
+  RunRecord record_;
+};
+
+}  // namespace
+
+double RunRecord::cpu_until(double time) const {
+  const auto at = std::lower_bound(t.begin(), t.end(), time - 1e-9);
+  return at == t.end() ? total_cpu_s : cpu_s[static_cast<std::size_t>(at - t.begin())];
+}
+
+double RunRecord::mapping_cpu_s() const {
+  double sum = 0;
+  for (const StageRecord& s : stages) sum += s.mapping_cpu_s;
+  return sum;
+}
+
+Record RunRecord::between(const std::vector<double>& signal, double from, double to) const {
+  Record out;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (t[i] > from && t[i] <= to + 1e-9) out.add(t[i], signal[i]);
+  return out;
+}
+
+RunRecord run_and_record(const sim::Case& c, const std::string& folder, int threads,
+                         const std::function<bool(double, int)>& enough) {
+  std::filesystem::create_directories(folder);
+  std::stop_source stop;
+  RunContext context = quiet_context(threads);
+  context.stop = stop.get_token();
+  Keeper keeper(stop, enough);
+  sim::RunOptions options;
+  options.folder = folder;
+  options.resume = false;           // CPU times are those of one unbroken run
+  options.checkpoint_interval = 0;  // at stage ends, as part of the run
+  const sim::RunOutcome outcome = sim::run_cascade(c, options, keeper, context);
+  if (outcome.reason == sim::StopReason::diverged) fail(ErrorCode::diverged, "{}", outcome.message);
+  return keeper.finish();
+}
+
+void save(const RunRecord& r, const std::string& path) {
+  nlohmann::json stages = nlohmann::json::array();
+  for (const StageRecord& s : r.stages)
+    stages.push_back({{"name", s.name},
+                      {"cells", s.cells},
+                      {"steps", s.steps},
+                      {"start_s", s.start},
+                      {"end_s", s.end},
+                      {"cpu_s", s.cpu_s},
+                      {"mapping_cpu_s", s.mapping_cpu_s},
+                      {"converged", s.converged}});
+  const nlohmann::json all{{"t_s", r.t},         {"roll_rad", r.roll},
+                           {"heave_m", r.heave}, {"cpu_s", r.cpu_s},
+                           {"stages", stages},   {"total_cpu_s", r.total_cpu_s}};
+  // Written aside: a file that is there is whole.
+  std::ofstream(path + ".part") << all.dump() << "\n";
+  std::filesystem::rename(path + ".part", path);
+}
+
+bool load(const std::string& path, RunRecord& r) {
+  std::ifstream file(path);
+  if (!file) return false;
+  const nlohmann::json all = nlohmann::json::parse(file);
+  all.at("t_s").get_to(r.t);
+  all.at("roll_rad").get_to(r.roll);
+  all.at("heave_m").get_to(r.heave);
+  all.at("cpu_s").get_to(r.cpu_s);
+  all.at("total_cpu_s").get_to(r.total_cpu_s);
+  r.stages.clear();
+  for (const auto& s : all.at("stages"))
+    r.stages.push_back({s.at("name"), s.at("cells"), s.at("steps"), s.at("start_s"), s.at("end_s"),
+                        s.at("cpu_s"), s.at("mapping_cpu_s"), s.at("converged")});
+  return true;
+}
+
+}  // namespace seaway::validation

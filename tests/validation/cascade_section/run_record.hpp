@@ -1,0 +1,44 @@
+// What is kept of one run of the example: histories with the CPU time at each sample, and stages.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/sim/case.hpp"
+#include "tests/validation/support/signal.hpp"
+
+namespace seaway::validation {
+
+struct StageRecord {
+  std::string name;
+  std::int64_t cells = 0, steps = 0;
+  double start = 0, end = 0;  ///< [s] of the run
+  double cpu_s = 0, mapping_cpu_s = 0;
+  bool converged = false;
+};
+
+struct RunRecord {
+  std::vector<double> t, roll, heave;  ///< [s], [rad], [m]
+  std::vector<double> cpu_s;           ///< of all threads, since the start of the run
+  std::vector<StageRecord> stages;
+  double total_cpu_s = 0;
+
+  double end_time() const { return t.empty() ? 0 : t.back(); }
+  /// CPU seconds until a time of the run.
+  double cpu_until(double time) const;
+  double mapping_cpu_s() const;
+  /// Samples of one signal with from < t <= to.
+  Record between(const std::vector<double>& signal, double from, double to) const;
+};
+
+/// Runs the case in `folder` from the start, until it ends or `enough(time, stage)` says so.
+/// Throws Error(diverged) when it does.
+RunRecord run_and_record(const sim::Case& c, const std::string& folder, int threads,
+                         const std::function<bool(double, int)>& enough);
+
+/// To and from a file; load returns false if there is none.
+void save(const RunRecord& record, const std::string& path);
+bool load(const std::string& path, RunRecord& record);
+
+}  // namespace seaway::validation
