@@ -39,8 +39,8 @@ class Projection {
                               const ProjectionOptions& options);
 
   /// After prepare with the same free_cells (null: all free): makes state.w solenoidal by changing only what
-  /// may change, u along with
-  /// it; the pressure is left alone. What a closed set of free cells had in sum stays, spread evenly. On closed faces of free cells w becomes the hull's own velocity first.
+  /// may change, u along with it; the pressure is left alone. What a closed set of free cells had in sum
+  /// stays, spread evenly. On closed faces of free cells w becomes the hull's own velocity first.
   linear::SolveReport repair(FlowState<Dim>& state, const HullMask<Dim>* mask, const motion::Twist<Dim>& twist,
                              const std::vector<char>* free_cells, double dt, const ProjectionOptions& options);
 
