@@ -70,19 +70,6 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
     const auto at = static_cast<std::size_t>(window.at(i));
     if (theta[at] >= 0.5) layer_[at] = 0;
   });
-  const auto plane_of = [&](int at) {
-    double stencil[Dim == 2 ? 9 : 27];
-    int e = 0;
-    for_box<Dim>(filled<Dim>(-1), filled<Dim>(2), [&](const IVec<Dim>& o) {
-      int index = at;
-      for (int a = 0; a < Dim; ++a) index += o[a] * window.stride(a);
-      stencil[e++] = vof[static_cast<std::size_t>(index)];
-    });
-    Plane<Dim> plane;
-    plane.normal = interface_normal<Dim>(stencil);
-    plane.d = plane_constant<Dim>(plane.normal, vof[static_cast<std::size_t>(at)]);
-    return plane;
-  };
   // A surface that lies exactly on a grid line leaves no mixed cell: the face between water and air is it.
   const auto sharp_plane = [&](int at, Plane<Dim>& plane) {
     const double c = vof[static_cast<std::size_t>(at)];
@@ -122,7 +109,7 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
             inside = inside && i[a] + n.at[a] >= 1 && i[a] + n.at[a] < window.n()[a] - 1;
           if (layer > 1 || !inside) continue;
           Plane<Dim> plane;
-          if (is_mixed(c)) plane = plane_of(from);
+          if (is_mixed(c)) plane = interface_plane<Dim>(window, vof, from);
           if (is_mixed(c) || sharp_plane(from, plane)) {
             for (int a = 0; a < Dim; ++a) plane.d += n.at[a] * plane.normal[static_cast<std::size_t>(a)];
             const double weight = n.distance == 1 ? 1.0 : 0.5;

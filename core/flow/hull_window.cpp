@@ -134,8 +134,25 @@ void HullWindow<Dim>::store_faces(const std::vector<double>& in, int axis, FaceF
   }
 }
 
+template <int Dim>
+Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<double>& vof, int at) {
+  double stencil[Dim == 2 ? 9 : 27];
+  int e = 0;
+  for_box<Dim>(filled<Dim>(-1), filled<Dim>(2), [&](const IVec<Dim>& o) {
+    int index = at;
+    for (int a = 0; a < Dim; ++a) index += o[a] * window.stride(a);
+    stencil[e++] = vof[static_cast<std::size_t>(index)];
+  });
+  Plane<Dim> plane;
+  plane.normal = interface_normal<Dim>(stencil);
+  plane.d = plane_constant<Dim>(plane.normal, vof[static_cast<std::size_t>(at)]);
+  return plane;
+}
+
 template class HullWindow<2>;
 template class HullWindow<3>;
+template Plane<2> interface_plane<2>(const HullWindow<2>&, const std::vector<double>&, int);
+template Plane<3> interface_plane<3>(const HullWindow<3>&, const std::vector<double>&, int);
 #define SEAWAY_INSTANTIATE(T, D)                                                                     \
   template void HullWindow<D>::load_faces<T>(const FaceField<T, D>&, int, std::vector<double>&) const; \
   template void HullWindow<D>::store_faces<T>(const std::vector<double>&, int, FaceField<T, D>&) const;

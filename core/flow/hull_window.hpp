@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/field/field.hpp"
+#include "core/flow/plic.hpp"
 
 namespace seaway::flow {
 
@@ -85,6 +86,11 @@ class HullWindow {
   std::vector<int> block_at_;  ///< dense, by block position in the window
   IVec<Dim> blocks_{};
 };
+
+/// Plane of the interface in a mixed cell, from the volume fractions around it (window array). The cell
+/// must not lie on the window's edge.
+template <int Dim>
+Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<double>& vof, int at);
 
 extern template class HullWindow<2>;
 extern template class HullWindow<3>;

@@ -112,12 +112,10 @@ std::array<double, Dim> interface_normal(const double* stencil) {
   std::array<std::array<double, Dim>, Dim> columns{};
   for (int e = 0; e < entries; ++e) {
     std::array<int, 3> at{};
-    int beside = 0;
     double weight = 1;
     for (int a = 0; a < Dim; ++a) {
       at[static_cast<std::size_t>(a)] = e / power[static_cast<std::size_t>(a)] % 3 - 1;
-      if (at[static_cast<std::size_t>(a)] != 0) ++beside;
-      else weight *= 2;
+      if (at[static_cast<std::size_t>(a)] == 0) weight *= 2;
     }
     const double c = stencil[e];
     for (std::size_t a = 0; a < Dim; ++a) {
@@ -132,7 +130,6 @@ std::array<double, Dim> interface_normal(const double* stencil) {
         if (in_column) columns[d][a] -= 0.5 * at[a] * c;
       }
     }
-    (void)beside;
   }
   const auto normalise = [](std::array<double, Dim>& n) {
     double sum = 0;

@@ -99,7 +99,6 @@ Projection<Dim>::Projection(const Forest<Dim>& forest, const FluidProperties& fl
 
 template <int Dim>
 void Projection<Dim>::apply_gravity(FlowState<Dim>& state, double dt) const {
-  constexpr int n = BlockShape<Dim>::n;
   constexpr int up = Dim - 1;
   const double g = fluids_.gravity;
   // Hydrostatic pressure of a cell over that of the surface at height z_surface; in a mixed cell as the
@@ -150,7 +149,6 @@ void Projection<Dim>::apply_gravity(FlowState<Dim>& state, double dt) const {
         });
       }
     }
-    (void)n;
   });
   field::restrict_faces<double, Dim>(forest_, state.u);
 }
@@ -212,7 +210,6 @@ void Projection<Dim>::prepare(const FlowState<Dim>& state, const HullMask<Dim>* 
                            static_cast<std::size_t>(offset<Dim>(i, cell_strides<Dim>()))] != 0;
     };
     forest_.for_each_leaf([&](int b) {
-      const auto& block = forest_.block(b);
       for (int axis = 0; axis < Dim; ++axis) {
         float* c = operator_.coefficients().block(axis, b);
         for_box<Dim>(filled<Dim>(0), faces_upper<Dim>(axis), [&](const IVec<Dim>& i) {

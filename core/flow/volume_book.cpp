@@ -16,21 +16,6 @@ namespace {
 constexpr double release_rate = 25.0;
 
 template <int Dim>
-Plane<Dim> plane_at(const HullWindow<Dim>& window, const std::vector<double>& vof, int at) {
-  double stencil[Dim == 2 ? 9 : 27];
-  int e = 0;
-  for_box<Dim>(filled<Dim>(-1), filled<Dim>(2), [&](const IVec<Dim>& o) {
-    int index = at;
-    for (int a = 0; a < Dim; ++a) index += o[a] * window.stride(a);
-    stencil[e++] = vof[static_cast<std::size_t>(index)];
-  });
-  Plane<Dim> plane;
-  plane.normal = interface_normal<Dim>(stencil);
-  plane.d = plane_constant<Dim>(plane.normal, vof[static_cast<std::size_t>(at)]);
-  return plane;
-}
-
-template <int Dim>
 bool on_edge(const HullWindow<Dim>& window, const IVec<Dim>& i, int margin) {
   for (int a = 0; a < Dim; ++a)
     if (i[a] < margin || i[a] >= window.n()[a] - margin) return true;
@@ -50,7 +35,7 @@ double VolumeBook<Dim>::visible_in(const HullMask<Dim>& mask, const IVec<Dim>& i
   if (theta >= 1) return c * volume;
   if (theta <= 0 || c <= mixed_limit) return 0;
   if (c >= 1 - mixed_limit || on_edge<Dim>(window, i, 1)) return c * theta * volume;
-  const Plane<Dim> plane = plane_at<Dim>(window, vof, at);
+  const Plane<Dim> plane = interface_plane<Dim>(window, vof, at);
   return std::max(0.0, c * volume - mask.submerged_solid(i, plane.normal, plane.d));
 }
 

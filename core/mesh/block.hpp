@@ -4,7 +4,7 @@
 // Storage, for every field over every block (leaves and parents):
 //   cell (i, j[, k])          at  block * cells + (k * N + j) * N + i,   i fastest
 //   face of axis a            the same with N + 1 entries along axis a: face i lies on the lower side of cell i
-// Faces between two blocks are stored by both (bit-identical). No ghost layers are stored: kernels gather a
+// Faces between two blocks are stored by both (equal to rounding). No ghost layers are stored: kernels gather a
 // block and its surroundings into a Scratch (core/field/scratch.hpp).
 #pragma once
 
