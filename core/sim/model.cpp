@@ -161,6 +161,8 @@ std::unique_ptr<Forest<Dim>> make_forest(const Model<Dim>& m, const MeshRule& ru
 }
 
 template Model<2> make_model<2>(const Case&);
+template Model<3> make_model<3>(const Case&);
 template std::unique_ptr<Forest<2>> make_forest<2>(const Model<2>&, const MeshRule&, int);
+template std::unique_ptr<Forest<3>> make_forest<3>(const Model<3>&, const MeshRule&, int);
 
 }  // namespace seaway::sim
