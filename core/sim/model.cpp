@@ -1,11 +1,10 @@
 // From the case to what all stages share, and the mesh of a stage.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/error.hpp"
-#include "core/mesh/refinement.hpp"
 #include "core/sim/build_hull.hpp"
+#include "core/sim/mesh_regions.hpp"
 #include "core/sim/simulation.hpp"
 
 namespace seaway::sim {
@@ -59,7 +58,7 @@ void add_natural_periods(const Case& c, const hull::Section& section, double dra
 
 template <int Dim>
 Model<Dim> make_model(const Case& c) {
-  SEAWAY_CHECK(c.dim == Dim, "dimension {} is not available here; use 2", c.dim);
+  SEAWAY_CHECK(c.dim == Dim, "a case of dimension {} was taken for one of {}", c.dim, Dim);
   SEAWAY_CHECK(!c.stages.empty(), "cascade.stages is empty; give at least one stage");
   Model<Dim> m;
   m.description = c;
@@ -112,50 +111,10 @@ Model<Dim> make_model(const Case& c) {
 
 template <int Dim>
 std::unique_ptr<Forest<Dim>> make_forest(const Model<Dim>& m, const MeshRule& rule, int threads) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  std::vector<mesh::RefinedBox<Dim>> boxes;
-  Vec<Dim> centre = m.start_pose.cog;
-  Vec<Dim> reach = Vec<Dim>::Zero();
-  if (m.hull) {
-    const auto bounds = m.hull->bounds();
-    // Corners of the hull's bounding box at all headings of the sweep.
-    Vec<Dim> lower = Vec<Dim>::Constant(inf), upper = Vec<Dim>::Constant(-inf);
-    for (int step = -8; step <= 8; ++step) {
-      motion::Angles angles;
-      angles.roll = rule.hull_sweep * step / 8.0;
-      const auto pose = motion::make_pose<Dim>(m.start_pose.cog, angles);
-      for (int corner = 0; corner < (1 << Dim); ++corner) {
-        Vec<Dim> x;
-        for (int a = 0; a < Dim; ++a) x[a] = ((corner >> a) & 1) ? bounds.upper[a] : bounds.lower[a];
-        const Vec<Dim> y = motion::hull_to_earth<Dim>(m.body, pose, x);
-        lower = lower.cwiseMin(y);
-        upper = upper.cwiseMax(y);
-      }
-    }
-    reach = 0.5 * (bounds.upper - bounds.lower);
-    if (rule.hull_cell > 0) {
-      const double margin = rule.hull_margin > 0 ? rule.hull_margin : 8 * rule.hull_cell;
-      const double draft = m.body.cog[Dim - 1] - m.rest_cog[Dim - 1];
-      const double heave = rule.hull_heave > 0 ? rule.hull_heave : 0.25 * draft;
-      mesh::RefinedBox<Dim> box{lower.array() - margin, upper.array() + margin, rule.hull_cell};
-      box.lower[Dim - 1] -= heave;
-      box.upper[Dim - 1] += heave;
-      boxes.push_back(box);
-    }
-  }
-  for (const SurfaceBand& band : rule.surface) {
-    mesh::RefinedBox<Dim> box{Vec<Dim>::Constant(-inf), Vec<Dim>::Constant(inf), band.cell};
-    for (int a = 0; a + 1 < Dim; ++a) {
-      if (!std::isfinite(band.within)) continue;
-      box.lower[a] = centre[a] - reach[a] - band.within;
-      box.upper[a] = centre[a] + reach[a] + band.within;
-    }
-    box.lower[Dim - 1] = -band.half_height;
-    box.upper[Dim - 1] = band.half_height;
-    boxes.push_back(box);
-  }
-  for (const RefinementBox& b : rule.boxes)
-    boxes.push_back({from_vec3<Dim>(b.lower), from_vec3<Dim>(b.upper), b.cell});
+  std::optional<HullPlace<Dim>> place;
+  if (m.hull)
+    place = HullPlace<Dim>{m.hull->bounds(), m.body.cog, m.start_pose.cog, m.body.cog[Dim - 1] - m.rest_cog[Dim - 1]};
+  const auto boxes = refined_regions<Dim>(rule, place);
   const int level = boxes.empty() ? 0 : mesh::finest_level<Dim>(m.grid, boxes);
   return std::make_unique<Forest<Dim>>(m.grid, level, mesh::refine_boxes<Dim>(m.grid, boxes), threads);
 }
