@@ -109,14 +109,55 @@ Model<Dim> make_model(const Case& c) {
   return m;
 }
 
+namespace {
+
+/// Of the blocks that overlap the box swept by the hull, those that come near the hull itself at some roll
+/// angle of the sweep. A ship fills less than half of its box; in a section the box is kept.
+mesh::RefineRule<3> refine_about_hull(const Model<3>& m, const MeshRule& rule, const mesh::RefinedBox<3>& box) {
+  const double margin = rule.hull_margin > 0 ? rule.hull_margin : 8 * rule.hull_cell;
+  const double heave = rule.hull_heave > 0 ? rule.hull_heave : 0.25 * (m.body.cog.z() - m.rest_cog.z());
+  const int n_angles = 2 * std::max(1, static_cast<int>(std::ceil(rule.hull_sweep / (4 * degree)))) + 1;
+  const double turn = 2 * rule.hull_sweep / (n_angles - 1);
+  std::vector<motion::Pose<3>> poses;
+  for (int k = 0; k < n_angles; ++k)
+    poses.push_back(motion::make_pose<3>(m.start_pose.cog, {-rule.hull_sweep + k * turn, 0, 0}));
+  const auto in_box = mesh::refine_boxes<3>(m.grid, {box});
+  return [hull = m.hull, body = m.body, poses, margin, heave, turn, in_box](const Vec3& lower, const Vec3& upper,
+                                                                          int level) {
+    if (!in_box(lower, upper, level)) return false;
+    const Vec3 middle = 0.5 * (lower + upper);
+    for (const auto& pose : poses) {
+      const Vec3 r = middle - pose.cog;
+      // What the hull can reach between two of the angles, and by heave.
+      const double between = 0.5 * turn * std::hypot(r.y(), r.z()) + heave;
+      const double reach = 0.5 * (upper - lower).norm() + margin + between;
+      if (hull->signed_distance(motion::earth_to_hull<3>(body, pose, middle)) < reach) return true;
+    }
+    return false;
+  };
+}
+
+}  // namespace
+
 template <int Dim>
 std::unique_ptr<Forest<Dim>> make_forest(const Model<Dim>& m, const MeshRule& rule, int threads) {
   std::optional<HullPlace<Dim>> place;
   if (m.hull)
     place = HullPlace<Dim>{m.hull->bounds(), m.body.cog, m.start_pose.cog, m.body.cog[Dim - 1] - m.rest_cog[Dim - 1]};
-  const auto boxes = refined_regions<Dim>(rule, place);
+  auto boxes = refined_regions<Dim>(rule, place);
   const int level = boxes.empty() ? 0 : mesh::finest_level<Dim>(m.grid, boxes);
-  return std::make_unique<Forest<Dim>>(m.grid, level, mesh::refine_boxes<Dim>(m.grid, boxes), threads);
+  mesh::RefineRule<Dim> refine = mesh::refine_boxes<Dim>(m.grid, boxes);
+  if constexpr (Dim == 3) {
+    if (m.hull && rule.hull_cell > 0) {
+      const auto about_hull = refine_about_hull(m, rule, boxes.front());
+      boxes.erase(boxes.begin());
+      refine = [about_hull, others = mesh::refine_boxes<3>(m.grid, boxes)](const Vec3& lower, const Vec3& upper,
+                                                                         int at) {
+        return others(lower, upper, at) || about_hull(lower, upper, at);
+      };
+    }
+  }
+  return std::make_unique<Forest<Dim>>(m.grid, level, refine, threads);
 }
 
 template Model<2> make_model<2>(const Case&);
