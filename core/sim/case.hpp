@@ -187,6 +187,7 @@ struct Case {
   Fluids fluids;
   Tank tank;
   double base_cell = 0;              ///< edge of the coarsest cell [m]
+  double stretch_x = 1;              ///< 3-D: cells are so many times longer along x; 1..4
   Wave wave;
   Zones zones;
   Hull hull;

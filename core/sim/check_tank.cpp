@@ -173,7 +173,7 @@ void check_fluids_and_tank(CheckState& s) {
   if (tank.periodic[2])
     f.error("tank.periodic", "z is periodic; gravity acts along it", "leave z out");
   s.tank_ok = f.n_errors() == before;
-  s.base_cell_ok = f.positive("mesh.base_cell_m", s.c.base_cell);
+  s.base_cell_ok = f.positive("mesh.base_cell_m", s.c.base_cell) & f.in_range("mesh.stretch_x", s.c.stretch_x, 1, 4);
   if (s.tank_ok && s.base_cell_ok) {
     double shortest = tank.upper.z() - tank.lower.z();
     for (int axis = s.first_axis(); axis < 2; ++axis)

@@ -20,20 +20,20 @@ constexpr std::int64_t too_many_blocks = 2'000'000;  // 5e8 cells of a section, 
 
 /// Leaf blocks under the block at `lower` with cells of size `cell`.
 template <int Dim>
-std::int64_t count_blocks(const std::vector<mesh::RefinedBox<Dim>>& regions, const Vec<Dim>& lower, double cell,
+std::int64_t count_blocks(const std::vector<mesh::RefinedBox<Dim>>& regions, const Vec<Dim>& lower, const Vec<Dim>& cell,
                           int level, std::int64_t budget) {
   constexpr int n = mesh::BlockShape<Dim>::n;
-  const Vec<Dim> upper = lower.array() + n * cell;
+  const Vec<Dim> upper = lower + n * cell;
   const bool split =
       level < 20 && std::any_of(regions.begin(), regions.end(), [&](const auto& r) {
-        return cell > cell_tolerance * r.cell && (r.lower.array() < upper.array()).all() &&
+        return cell[Dim - 1] > cell_tolerance * r.cell && (r.lower.array() < upper.array()).all() &&
                (r.upper.array() > lower.array()).all();
       });
   if (!split) return 1;
   std::int64_t sum = 0;
   for (int i = 0; i < (1 << Dim) && sum < budget; ++i) {
     Vec<Dim> corner = lower;
-    for (int a = 0; a < Dim; ++a) corner[a] += 0.5 * n * cell * ((i >> a) & 1);
+    for (int a = 0; a < Dim; ++a) corner[a] += 0.5 * n * cell[a] * ((i >> a) & 1);
     sum += count_blocks<Dim>(regions, corner, 0.5 * cell, level + 1, budget - sum);
   }
   return sum;
@@ -48,19 +48,21 @@ std::int64_t count_cells(const CheckState& s, const Stage& stage) {
                            from_vec3<Dim>(s.place->cog), from_vec3<Dim>(s.place->start), s.place->draft};
   }
   const auto regions = refined_regions<Dim>(stage.mesh, place);
-  const double edge = mesh::BlockShape<Dim>::n * s.c.base_cell;
+  Vec<Dim> cell = Vec<Dim>::Constant(s.c.base_cell);
+  if (Dim == 3) cell[0] *= s.c.stretch_x;
+  const Vec<Dim> edge = mesh::BlockShape<Dim>::n * cell;
   const Vec<Dim> low = from_vec3<Dim>(s.c.tank.lower), size = from_vec3<Dim>(s.c.tank.upper) - low;
   // Tolerance against rounding of tanks that are whole multiples of the blocks.
-  const Vec<Dim> n = (size.array() / edge - 1e-6).ceil().max(1.0);
+  const Vec<Dim> n = (size.array() / edge.array() - 1e-6).ceil().max(1.0);
   if (n.prod() >= static_cast<double>(too_many_blocks)) return too_many_blocks * cells;
   IVec<Dim> upper{};
   for (int a = 0; a < Dim; ++a) upper[a] = static_cast<int>(n[a]);
   std::int64_t blocks = 0;
   field::for_box<Dim>(field::filled<Dim>(0), upper, [&](const IVec<Dim>& i) {
     Vec<Dim> corner = low;
-    for (int a = 0; a < Dim; ++a) corner[a] += edge * i[a];
+    for (int a = 0; a < Dim; ++a) corner[a] += edge[a] * i[a];
     if (blocks < too_many_blocks)
-      blocks += count_blocks<Dim>(regions, corner, s.c.base_cell, 0, too_many_blocks - blocks);
+      blocks += count_blocks<Dim>(regions, corner, cell, 0, too_many_blocks - blocks);
   });
   return blocks * cells;
 }

@@ -65,7 +65,8 @@ Model<Dim> make_model(const Case& c) {
   std::array<bool, Dim> periodic{};
   for (int a = 0; a < Dim; ++a)
     periodic[static_cast<std::size_t>(a)] = c.tank.periodic[static_cast<std::size_t>(a + 3 - Dim)];
-  m.grid = mesh::make_tank_grid<Dim>(from_vec3<Dim>(c.tank.lower), from_vec3<Dim>(c.tank.upper), c.base_cell, periodic);
+  m.grid = mesh::make_tank_grid<Dim>(from_vec3<Dim>(c.tank.lower), from_vec3<Dim>(c.tank.upper), c.base_cell, periodic,
+                                     c.stretch_x);
   m.fluids.rho_water = c.fluids.rho_water;
   m.fluids.rho_air = c.fluids.rho_air;
   m.fluids.nu_water = c.fluids.nu_water;

@@ -160,6 +160,7 @@ v1::Case to_proto(const sim::Case& c) {
   if (c.tank.periodic[1]) m.mutable_tank()->add_periodic(v1::AXIS_Y);
   m.mutable_tank()->set_open_top(c.tank.open_top);
   m.mutable_mesh()->set_base_cell_m(c.base_cell);
+  if (c.dim == 3) m.mutable_mesh()->set_stretch_x(c.stretch_x);
   if (c.wave.kind == sim::Wave::Kind::none) {
     m.mutable_wave()->mutable_calm();
   } else {
