@@ -28,16 +28,11 @@ void HullMask<Dim>::make_patches(const HullGeometry<Dim>& g,
   out.resize(tiles.size());
   mesh::parallel_for(static_cast<int>(tiles.size()), window_.forest().threads(), [&](int t) {
     const auto& tile = tiles[static_cast<std::size_t>(t)];
-    hull::Box<Dim> box{Vec<Dim>::Constant(1e300), Vec<Dim>::Constant(-1e300)};
-    for (int corner = 0; corner < (1 << Dim); ++corner) {  // control volumes reach half a cell out
-      IVec<Dim> i = tile.at;
-      Vec<Dim> x = window_.cell_centre(i);
-      for (int a = 0; a < Dim; ++a) x[a] += ((corner >> a) & 1) ? (nb + 0.1) * window_.h()[a] : -1.1 * window_.h()[a];
-      const Vec<Dim> y = motion::earth_to_hull<Dim>(body_, g.pose, x);
-      box.lower = box.lower.cwiseMin(y);
-      box.upper = box.upper.cwiseMax(y);
-    }
-    out[static_cast<std::size_t>(t)] = hull_->patch(box);
+    // Control volumes reach half a cell out.
+    const Vec<Dim> centre = window_.cell_centre(tile.at) + 0.5 * (nb - 1) * window_.h();
+    hull::OrientedBox<Dim> block = box_at(g, centre);
+    block.half = (0.5 * nb + 0.6) * window_.h();
+    out[static_cast<std::size_t>(t)] = hull_->patch(block);
   });
 }
 
