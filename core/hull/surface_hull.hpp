@@ -25,6 +25,9 @@ class SurfaceHull final : public Hull<3> {
   int compartment_at(const Vec3&) const override { return -1; }
   int n_compartments() const override { return 0; }
 
+  /// Closed surfaces whose densities add up to the solid: what pictures show.
+  const std::vector<std::shared_ptr<const SurfaceTree>>& solids() const { return solids_; }
+
  private:
   Box<3> bounds_;
   std::vector<std::shared_ptr<const SurfaceTree>> solids_;
