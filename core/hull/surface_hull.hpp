@@ -34,6 +34,9 @@ class SurfaceHull final : public Hull<3> {
 
   const Ship& ship() const { return ship_; }
 
+  /// Closed surfaces whose densities add up to the solid: what pictures show.
+  const std::vector<std::shared_ptr<const SurfaceTree>>& solids() const { return solids_; }
+
  private:
   using Trees = std::vector<std::shared_ptr<const SurfaceTree>>;
   struct Space {
