@@ -7,6 +7,7 @@
 #include "core/sim/build_hull.hpp"
 
 namespace seaway::sim {
+
 namespace {
 
 hull::ShipSpec::Shape ship_shape(Hull::Shape shape) {
@@ -33,10 +34,6 @@ hull::ShipSpec::Shape ship_shape(Hull::Shape shape) {
   fail(ErrorCode::invalid_argument, "this shape is a section; a ship's case needs a body in space");
 }
 
-bool is_free(const Case& c, Dof dof) {
-  return std::find(c.body.free.begin(), c.body.free.end(), dof) != c.body.free.end();
-}
-
 }  // namespace
 
 hull::ShipSpec ship_spec(const Hull& hull, const std::string& folder) {
@@ -61,6 +58,10 @@ hull::ShipSpec ship_spec(const Hull& hull, const std::string& folder) {
   return spec;
 }
 
+hull::Surface outer_surface(const Hull& hull, const std::string& folder) {
+  return hull::outer_surface(ship_spec(hull, folder));
+}
+
 std::shared_ptr<const hull::SurfaceHull> build_surface_hull(const Case& c) {
   if (c.hull.shape == Hull::Shape::none) return nullptr;
   SEAWAY_CHECK(!c.stages.empty(), "the case has no stages; at least one is needed");
@@ -72,29 +73,33 @@ std::shared_ptr<const hull::SurfaceHull> build_surface_hull(const Case& c) {
   }
   hull::Ship ship = hull::build_ship(ship_spec(c.hull, c.folder));
   const double margin = 8 * coarsest;
-  const double spacing = std::max(0.5 * finest, hull::DistanceGrid::finest_spacing(hull::bounds_of(ship.outer), margin));
+  const double spacing =
+      std::max(0.5 * finest, hull::DistanceGrid::finest_spacing(hull::bounds_of(ship.outer), margin));
   return std::make_shared<hull::SurfaceHull>(std::move(ship), spacing, margin, opening_reach(c));
 }
 
 double start_draft(const Case& c, const hull::Ship& ship) {
   if (c.body.draft > 0) return c.body.draft;
-  const auto solid = hull::buoyant_surfaces(ship, open_compartments(c.hull));
+  const hull::Solid solid = hull::buoyant_surfaces(ship, open_compartments(c.hull));
   const auto draft = hull::find_waterline(solid, 0.0, 0.0, c.body.mass / c.fluids.rho_water);
   SEAWAY_CHECK(draft, "mass {} kg exceeds what the hull can displace, {} kg; it cannot float", c.body.mass,
-               c.fluids.rho_water * hull::hydrostatics(solid, {1e3, 0, 0}).volume);
+               c.fluids.rho_water * hull::hydrostatics(solid, {1e9, 0, 0}).volume);
   return *draft;
 }
 
 NaturalPeriods natural_periods(const Case& c, const hull::Ship& ship, double draft) {
   NaturalPeriods periods;
-  const auto solid = hull::buoyant_surfaces(ship, open_compartments(c.hull));
+  const auto is_free = [&](Dof dof) {
+    return std::find(c.body.free.begin(), c.body.free.end(), dof) != c.body.free.end();
+  };
+  const hull::Solid solid = hull::buoyant_surfaces(ship, open_compartments(c.hull));
   const hull::ShipHydrostatics water = hull::hydrostatics(solid, {draft, 0, 0});
   const double gm = hull::metacentric_heights(water, {draft, 0, 0}, c.body.cog).transverse;
   const double g = c.fluids.gravity;
   // Rough added inertia: a quarter of the dry one in roll, the mass in heave.
-  if (is_free(c, Dof::roll) && gm > 0) periods.roll = 2 * pi * c.body.gyradii.x() * std::sqrt(1.25 / (g * gm));
+  if (is_free(Dof::roll) && gm > 0) periods.roll = 2 * pi * c.body.gyradii.x() * std::sqrt(1.25 / (g * gm));
   const double stiffness = c.fluids.rho_water * g * water.waterplane_area;
-  if (is_free(c, Dof::heave) && stiffness > 0) periods.heave = 2 * pi * std::sqrt(2 * c.body.mass / stiffness);
+  if (is_free(Dof::heave) && stiffness > 0) periods.heave = 2 * pi * std::sqrt(2 * c.body.mass / stiffness);
   return periods;
 }
 

@@ -83,7 +83,7 @@ struct Hull {
   double radius = 0;                               ///< cylinder, sphere [m]
   double design_draft = 0;                         ///< wigley [m]
   std::vector<std::array<double, 2>> vertices;     ///< polygon (y, z), last corner = first [m]
-  std::string offsets_file;                        ///< offsets_section, offsets_hull: table of half-breadths; stl
+  std::string offsets_file;                        ///< offsets_section, offsets_hull: table of half-breadths; stl: that file
   double station = 0;                              ///< x of the section in the table's unit; offsets_hull, stl: of amidships
   double scale = 1;                                ///< table lengths are divided by this
   double unit = 0;                                 ///< stl: metres in the file's unit
