@@ -1,6 +1,7 @@
 #include "core/sim/build_ship.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/sim/build_hull.hpp"
@@ -74,7 +75,7 @@ std::shared_ptr<const hull::SurfaceHull> build_surface_hull(const Case& c) {
   const double margin = 8 * coarsest;
   const double spacing =
       std::max(0.5 * finest, hull::DistanceGrid::finest_spacing(hull::bounds_of(ship.outer), margin));
-  return std::make_shared<hull::SurfaceHull>(std::move(ship), spacing, margin, 2 * coarsest);
+  return std::make_shared<hull::SurfaceHull>(std::move(ship), spacing, margin, opening_reach(c));
 }
 
 double start_draft(const Case& c, const hull::Ship& ship) {
@@ -84,6 +85,22 @@ double start_draft(const Case& c, const hull::Ship& ship) {
   SEAWAY_CHECK(draft, "mass {} kg exceeds what the hull can displace, {} kg; it cannot float", c.body.mass,
                c.fluids.rho_water * hull::hydrostatics(solid, {1e9, 0, 0}).volume);
   return *draft;
+}
+
+NaturalPeriods natural_periods(const Case& c, const hull::Ship& ship, double draft) {
+  NaturalPeriods periods;
+  const auto is_free = [&](Dof dof) {
+    return std::find(c.body.free.begin(), c.body.free.end(), dof) != c.body.free.end();
+  };
+  const hull::Solid solid = hull::buoyant_surfaces(ship, open_compartments(c.hull));
+  const hull::ShipHydrostatics water = hull::hydrostatics(solid, {draft, 0, 0});
+  const double gm = hull::metacentric_heights(water, {draft, 0, 0}, c.body.cog).transverse;
+  const double g = c.fluids.gravity;
+  // Rough added inertia: a quarter of the dry one in roll, the mass in heave.
+  if (is_free(Dof::roll) && gm > 0) periods.roll = 2 * pi * c.body.gyradii.x() * std::sqrt(1.25 / (g * gm));
+  const double stiffness = c.fluids.rho_water * g * water.waterplane_area;
+  if (is_free(Dof::heave) && stiffness > 0) periods.heave = 2 * pi * std::sqrt(2 * c.body.mass / stiffness);
+  return periods;
 }
 
 }  // namespace seaway::sim

@@ -27,4 +27,10 @@ std::shared_ptr<const hull::SurfaceHull> build_surface_hull(const Case& c);
 /// ship floats with the flooded compartments open. Throws Error(invalid_argument) if it does not float.
 double start_draft(const Case& c, const hull::Ship& ship);
 
+/// Rough natural periods of the free motions about a draft [s]; 0: not free, or none.
+struct NaturalPeriods {
+  double heave = 0, roll = 0;
+};
+NaturalPeriods natural_periods(const Case& c, const hull::Ship& ship, double draft);
+
 }  // namespace seaway::sim

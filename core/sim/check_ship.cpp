@@ -142,9 +142,6 @@ void check_ship_hull(CheckState& s) {
     const auto problems = hull::find_compartment_problems(spec, outer);
     for (const hull::SectionProblem& p : problems) s.findings.error(case_field(p.where), p.message, p.hint);
     if (problems.empty()) s.ship = hull::build_ship(spec);
-    if (!s.c.hull.compartments.empty())
-      s.findings.error("hull.compartments", "this version runs ships without compartments",
-                       "leave them out, or run a section (dimension 2)");
   } catch (const Error& error) {
     const Culprit culprit = culprit_of(s.c.hull.shape);
     const bool no_file = error.code() == ErrorCode::not_found && is_from_file(s.c.hull.shape);
@@ -161,15 +158,16 @@ void check_ship_floating(CheckState& s) {
   const double capacity = rho * hull::hydrostatics(open, {1e9, 0, 0}).volume;
   if (body.draft > 0) {
     check_draft(s, open, capacity, afloat.value_or(0.0));
-    s.place = HullPlace<3>{hull::bounds_of(s.ship->outer), body.cog, body.cog + body.offset - Vec3(0, 0, body.draft),
-                           body.draft};
+  } else if (!afloat) {
+    s.findings.error("body.mass_kg",
+                     fmt::format("{} kg cannot float: the hull displaces at most {:.6g} kg{}", body.mass, capacity,
+                                 s.c.hull.compartments.empty() ? "" : " with its flooded compartments"),
+                     "lower the mass, enlarge the hull, or give body.draft_m to let it sink");
+  }
+  if (const double draft = body.draft > 0 ? body.draft : afloat.value_or(0.0); draft > 0) {
+    s.place =
+        HullPlace<3>{hull::bounds_of(s.ship->outer), body.cog, body.cog + body.offset - Vec3(0, 0, draft), draft};
     check_place(s);
-  } else {
-    s.findings.error("body.draft_m", "is missing",
-                     afloat ? fmt::format("the ship floats at {:.4g} m: give that draft, or another to start from",
-                                          *afloat)
-                            : fmt::format("and {} kg cannot float: the hull displaces at most {:.6g} kg", body.mass,
-                                          capacity));
   }
   if (!afloat) return;
   fill_summary(s, open, volume, *afloat);

@@ -66,6 +66,7 @@ void check_fluids_and_tank(CheckState& s);       // check_tank.cpp
 void check_wave_and_zones(CheckState& s);        // check_tank.cpp
 void check_settings_and_outputs(CheckState& s);  // check_tank.cpp
 void check_hull(CheckState& s);                  // check_hull.cpp: shape, compartments
+void check_compartment_use(CheckState& s);       // check_hull.cpp: names, floods without an opening
 void check_ship_hull(CheckState& s);             // check_ship.cpp: the same in 3-D
 void check_compartment_use(CheckState& s);       // check_hull.cpp: names, floods
 void check_body(CheckState& s);                  // check_motion.cpp: numbers and freedoms
