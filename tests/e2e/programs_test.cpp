@@ -119,6 +119,20 @@ TEST_F(Programs, WrongCasesNameFileLineAndField) {
   EXPECT_EQ(nlohmann::json::parse(seaway({"list", "--json"}).output)["jobs"].size(), 0u) << "nothing is queued";
 }
 
+TEST_F(Programs, HullPrintsHydrostatics) {
+  const std::string table = source + "/client/examples/dtmb5415_offsets.csv";
+  const Finished done = offline({"hull", table, "--scale", "51", "--amidships", "71", "--draft", "0.12059", "--kg",
+                                 "0.148", "--json", "--out", folder_ / "hull"});
+  ASSERT_EQ(done.code, 0) << done.output;
+  const auto report = nlohmann::json::parse(done.output);
+  EXPECT_NEAR(report["at_draft"]["volume_m3"].get<double>(), 8389.1 / (51.0 * 51 * 51), 1e-4);
+  EXPECT_NEAR(report["intact"]["gm_m"].get<double>(), 0.0384, 0.0005);
+  EXPECT_TRUE(fs::exists(folder_ / "hull/body_plan.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "hull/gz.png"));
+  EXPECT_EQ(offline({"hull", folder_ / "nothing.stl", "--unit", "1"}).code, 1);
+  EXPECT_EQ(offline({"hull", table, "--scale", "0"}).code, 2);
+}
+
 TEST_F(Programs, ExitCodesTellWhatHappened) {
   EXPECT_EQ(seaway({"list"}).code, 4);
   start({"SEAWAY_FAKE_STEP_US=2000"});
