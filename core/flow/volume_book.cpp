@@ -13,7 +13,13 @@ using field::for_box;
 namespace {
 
 /// Part of the reservoirs that goes back to the flow in a second.
-constexpr double release_rate = 25.0;
+constexpr double release_rate = 100.0;
+
+/// Cells with less fluid get their volume fraction from their neighbours each step: nothing stays in them.
+constexpr double smallest_taker = 0.5;
+
+/// A space with less water than so many cells is dry.
+constexpr double least_wet_cells = 10;
 
 template <int Dim>
 bool on_edge(const HullWindow<Dim>& window, const IVec<Dim>& i, int margin) {
@@ -183,26 +189,50 @@ template <int Dim>
 void VolumeBook<Dim>::release(const HullMask<Dim>& mask, std::vector<double>& vof, double dt) {
   const HullWindow<Dim>& window = mask.window();
   const auto& theta = mask.fluid_fraction();
-  const double part = 1 - std::exp(-release_rate * dt);
   const bool thin = mask.walls() == Walls::thin;
+  const double volume = window.cell_volume(), part = 1 - std::exp(-release_rate * dt);
+  struct Taker {
+    std::size_t at;
+    double weight;
+  };
   for (auto& [space, owed] : reservoir_) {
-    if (std::abs(owed) < 1e-15 * window.cell_volume()) continue;
-    std::vector<std::pair<std::size_t, double>> takers;
+    if (std::abs(owed) < 1e-15 * volume) continue;
+    std::vector<Taker> takers;
     double weights = 0;
     window.for_cells([&](const IVec<Dim>& i) {
       const auto at = static_cast<std::size_t>(window.at(i));
       const double c = vof[at];
       if (theta[at] < 1 || !is_mixed(c) || on_edge<Dim>(window, i, 2)) return;
       if ((thin ? space_of(mask, i) : mask.space_at(window.cell_centre(i))) != space) return;
-      takers.emplace_back(at, c * (1 - c));
+      takers.push_back({at, c * (1 - c)});
       weights += c * (1 - c);
     });
     const double amount = part * owed;
-    for (const auto& [at, weight] : takers) {
-      const double before = vof[at];
-      vof[at] = std::clamp(before + amount * weight / weights / window.cell_volume(), 0.0, 1.0);
-      owed -= (vof[at] - before) * window.cell_volume();
+    double left = amount;
+    for (const Taker& t : takers) {
+      const double before = vof[t.at];
+      vof[t.at] = std::clamp(before + amount * t.weight / weights / volume, 0.0, 1.0);
+      left -= (vof[t.at] - before) * volume;
     }
+    owed -= amount - left;
+    if (std::abs(left) < 1e-3 * std::abs(amount)) continue;
+    // No surface away from the walls: cells that the walls cut. What they show then is settled by the caller.
+    takers.clear();
+    weights = 0;
+    double wet = 0;  // cells of water
+    window.for_cells([&](const IVec<Dim>& i) {
+      const auto at = static_cast<std::size_t>(window.at(i));
+      const double c = vof[at];
+      if (theta[at] < smallest_taker || !(c > 0) || on_edge<Dim>(window, i, 2) || space_of(mask, i) != space) return;
+      wet += theta[at] * c;
+      if (theta[at] >= 1 || !is_mixed(c)) return;
+      takers.push_back({at, theta[at] * c * (1 - c)});
+      weights += takers.back().weight;
+    });
+    // What a dry space is owed are errors at its walls, not water.
+    if (left > 0 && wet < least_wet_cells) continue;
+    for (const Taker& t : takers)
+      vof[t.at] = std::clamp(vof[t.at] + left * t.weight / weights / (theta[t.at] * volume), 0.0, 1.0);
   }
 }
 
