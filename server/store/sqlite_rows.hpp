@@ -11,6 +11,17 @@
 
 namespace seaway::store::rows {
 
+// --- jobs; each returns the job as it is afterwards, or nothing if it did not change -----------------
+Created create(Database& db, const NewJob& job, int limit, std::int64_t now);
+std::optional<Job> find(Database& db, const std::string& uid);
+std::vector<Job> list(Database& db, const ListQuery& query);
+std::optional<Job> take_next(Database& db, std::int64_t now);
+std::optional<Job> move(Database& db, const std::string& uid, State from, State to, Reason reason,
+                        const std::string& message, std::int64_t now);
+Recovery recover(Database& db, int max_stalled, std::int64_t now);
+bool erase(Database& db, const std::string& uid);
+
+// --- the data of a run -----------------------------------------------------------------------------
 /// id, or not_found.
 std::int64_t job_id(Database& db, const std::string& uid);
 

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Jobs and their moves: rows in and out.
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "server/store/sqlite_rows.hpp"
+
+namespace seaway::store::rows {
+namespace {
+
+constexpr std::string_view job_columns =
+    "id, uid, request_id, title, state, reason, message, attempt, stalled_attempts, digest, code_version, "
+    "created_ns, started_ns, ended_ns, updated_ns, stage, stage_count, time_s, fraction, remaining_s, held, "
+    "last_sequence, checkpoint_sequence";
+
+Job read_job(const Statement& row, bool with_spec) {
+  Job j;
+  j.id = row.integer(0);
+  j.uid = row.text(1);
+  j.request_id = row.text(2);
+  j.title = row.text(3);
+  j.state = static_cast<State>(row.integer(4));
+  j.reason = static_cast<Reason>(row.integer(5));
+  j.message = row.text(6);
+  j.attempt = static_cast<int>(row.integer(7));
+  j.stalled_attempts = static_cast<int>(row.integer(8));
+  j.digest = row.text(9);
+  j.code_version = row.text(10);
+  j.created_ns = row.integer(11);
+  j.started_ns = row.integer(12);
+  j.ended_ns = row.integer(13);
+  j.updated_ns = row.integer(14);
+  j.progress = {static_cast<int>(row.integer(15)), static_cast<int>(row.integer(16)), row.real(17), row.real(18),
+                row.real(19), row.integer(20) != 0};
+  j.last_sequence = row.integer(21);
+  j.checkpoint_sequence = row.integer(22);
+  if (with_spec) j.spec = row.text(23);
+  return j;
+}
+
+std::optional<Job> find_by(Database& db, std::string_view column, const std::string& value) {
+  Statement query = db.prepare("SELECT " + std::string(job_columns) + ", spec FROM jobs WHERE " + std::string(column) + " = ?");
+  if (!query.bind(value).step()) return std::nullopt;
+  return read_job(query, true);
+}
+
+/// One guarded move with its event; false if the job was not in `from`.
+bool apply_move(Database& db, const std::string& uid, State from, State to, Reason reason, const std::string& message,
+                std::int64_t now) {
+  if (!may_move(from, to))
+    fail(ErrorCode::failed_precondition, "job {}: {} -> {} is no move", uid, to_string(from), to_string(to));
+  db.prepare("UPDATE jobs SET state = ?, reason = ?, message = ?, updated_ns = ?, ended_ns = ? WHERE uid = ? AND state = ?")
+      .bind(static_cast<int>(to), static_cast<int>(reason), message, now, is_terminal(to) ? now : std::int64_t{0}, uid,
+            static_cast<int>(from))
+      .run();
+  if (db.changes() == 0) return false;
+  if (from == State::running || from == State::cancelling)
+    db.prepare("UPDATE attempts SET ended_ns = ?, outcome = ? WHERE (job, attempt) = (SELECT id, attempt FROM jobs WHERE uid = ?)")
+        .bind(now, std::string(to_string(to)), uid)
+        .run();
+  std::string text(to_string(to));
+  if (reason != Reason::none) text.append(1, ' ').append(to_string(reason));
+  if (!message.empty()) text.append(": ").append(message);
+  add_event(db, uid, "STATE", text, now);
+  return true;
+}
+
+}  // namespace
+
+Created create(Database& db, const NewJob& job, int limit, std::int64_t now) {
+  if (auto known = find_by(db, "request_id", job.request_id)) return {std::move(*known), true};
+  if (limit > 0) {
+    Statement query = db.prepare("SELECT count(*) FROM (SELECT 1 FROM jobs WHERE state = 1 LIMIT ?)");
+    query.bind(limit);
+    if (query.step() && query.integer(0) >= limit)
+      fail(ErrorCode::resource_exhausted, "{} jobs are waiting, which is the limit; submit again later", limit);
+  }
+  db.prepare("INSERT INTO jobs (uid, request_id, title, state, digest, code_version, spec, created_ns, updated_ns) "
+             "VALUES (?, ?, ?, 1, ?, ?, ?, ?, ?)")
+      .bind(job.uid, job.request_id, job.title, job.digest, job.code_version, Statement::Blob{job.spec}, now, now)
+      .run();
+  add_event(db, job.uid, "STATE", "QUEUED", now);
+  return {*find(db, job.uid), false};
+}
+
+std::optional<Job> find(Database& db, const std::string& uid) { return find_by(db, "uid", uid); }
+
+std::vector<Job> list(Database& db, const ListQuery& query) {
+  std::string sql = "SELECT " + std::string(job_columns) + " FROM jobs WHERE id < ?";
+  std::vector<State> states = query.states;
+  std::sort(states.begin(), states.end());
+  states.erase(std::unique(states.begin(), states.end()), states.end());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    sql += i == 0 ? " AND state IN (" : ", ";
+    sql += std::to_string(static_cast<int>(states[i]));
+  }
+  if (!states.empty()) sql += ")";
+  sql += " ORDER BY id DESC LIMIT ?";
+  std::vector<Job> out;
+  Statement rows = db.prepare(sql);
+  rows.bind(query.before_id > 0 ? query.before_id : std::int64_t{1} << 62, query.limit);
+  while (rows.step()) out.push_back(read_job(rows, false));
+  return out;
+}
+
+std::optional<Job> take_next(Database& db, std::int64_t now) {
+  std::string uid;
+  {
+    Statement query = db.prepare("SELECT uid FROM jobs WHERE state = 1 ORDER BY id LIMIT 1");
+    if (!query.step()) return std::nullopt;
+    uid = query.text(0);
+  }
+  db.prepare("UPDATE jobs SET attempt = attempt + 1, attempt_sequence = last_sequence, started_ns = "
+             "CASE started_ns WHEN 0 THEN ? ELSE started_ns END WHERE uid = ?")
+      .bind(now, uid)
+      .run();
+  db.prepare("INSERT INTO attempts (job, attempt, first_sequence, started_ns) "
+             "SELECT id, attempt, last_sequence + 1, ? FROM jobs WHERE uid = ?")
+      .bind(now, uid)
+      .run();
+  apply_move(db, uid, State::queued, State::running, Reason::none, "", now);
+  return find(db, uid);
+}
+
+std::optional<Job> move(Database& db, const std::string& uid, State from, State to, Reason reason,
+                        const std::string& message, std::int64_t now) {
+  job_id(db, uid);
+  if (!apply_move(db, uid, from, to, reason, message, now)) return std::nullopt;
+  return find(db, uid);
+}
+
+Recovery recover(Database& db, int max_stalled, std::int64_t now) {
+  Recovery out;
+  struct Row {
+    std::string uid;
+    State state;
+    bool stalled;
+    int count;
+  };
+  std::vector<Row> found;
+  {
+    Statement query = db.prepare(
+        "SELECT uid, state, last_sequence <= attempt_sequence, stalled_attempts FROM jobs WHERE state IN (3, 4) ORDER BY id");
+    while (query.step())
+      found.push_back({query.text(0), static_cast<State>(query.integer(1)), query.integer(2) != 0,
+                       static_cast<int>(query.integer(3))});
+  }
+  for (const Row& row : found) {
+    const int stalled = row.stalled ? row.count + 1 : 0;
+    db.prepare("UPDATE jobs SET stalled_attempts = ? WHERE uid = ?").bind(stalled, row.uid).run();
+    if (row.state == State::cancelling) {
+      apply_move(db, row.uid, row.state, State::cancelled, Reason::user, "the server stopped while cancelling", now);
+      out.cancelled.push_back(row.uid);
+    } else if (stalled >= max_stalled) {
+      apply_move(db, row.uid, row.state, State::failed, Reason::worker_crash,
+                 "the server ended " + std::to_string(stalled) + " times in a row without a new sample of this job", now);
+      out.failed.push_back(row.uid);
+    } else {
+      add_event(db, row.uid, "RECOVERED", "the server had ended during this attempt", now);
+      apply_move(db, row.uid, row.state, State::queued, Reason::server_restart, "", now);
+      out.requeued.push_back(row.uid);
+    }
+  }
+  return out;
+}
+
+bool erase(Database& db, const std::string& uid) {
+  job_id(db, uid);
+  db.prepare("DELETE FROM jobs WHERE uid = ? AND state IN (5, 6, 7)").bind(uid).run();
+  return db.changes() > 0;
+}
+
+}  // namespace seaway::store::rows
