@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <thread>
 
 #include "proto/yaml.hpp"
@@ -10,6 +11,30 @@
 #include "server/convert/checker.hpp"
 
 namespace seaway::server {
+namespace {
+
+std::chrono::milliseconds milliseconds(double seconds) {
+  return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * seconds));
+}
+
+/// Executor and limits of the workers.
+void read_worker(const v1::Workers& m, const Flags& flags, convert::Checker& check, Settings& s) {
+  constexpr std::int64_t megabyte = 1'000'000;
+  jobs::ProcessSettings& w = s.worker;
+  s.processes = flags.processes;
+  if (m.has_executor()) s.processes = m.executor() != v1::Workers::EXECUTOR_THREAD;
+  w.program = m.has_program() ? m.program() : (std::filesystem::canonical("/proc/self/exe").parent_path() / "seaway-run").string();
+  if (m.has_max_faults()) s.pool.max_faults = check.count("workers.max_faults", m.max_faults(), 1, 1000);
+  if (m.has_stall_timeout_s())
+    w.stall = milliseconds(check.number("workers.stall_timeout_s", m.stall_timeout_s(), {1, 86400}));
+  if (m.has_lease_s()) w.lease = milliseconds(check.number("workers.lease_s", m.lease_s(), {1, 600}));
+  if (m.has_stop_grace_s()) w.stop_grace = milliseconds(check.number("workers.stop_grace_s", m.stop_grace_s(), {0, 3600}));
+  if (m.has_memory_mb()) w.limits.memory_bytes = megabyte * check.count("workers.memory_mb", m.memory_mb(), 0, 100'000'000);
+  if (m.has_wall_s()) w.limits.wall = milliseconds(check.number("workers.wall_s", m.wall_s(), {0, 1e9}));
+  if (m.has_disk_mb()) w.limits.disk_bytes = megabyte * check.count("workers.disk_mb", m.disk_mb(), 0, 100'000'000);
+}
+
+}  // namespace
 
 Settings load_settings(const Flags& flags) {
   v1::ServerConfig m;
@@ -24,12 +49,13 @@ Settings load_settings(const Flags& flags) {
   if (m.storage().has_data_dir()) s.data_dir = m.storage().data_dir();
   if (m.storage().has_commit_interval_ms())
     s.commit_interval_ms = check.count("storage.commit_interval_ms", m.storage().commit_interval_ms(), 1, 10000);
+  read_worker(m.workers(), flags, check, s);
   if (m.workers().has_count()) s.pool.workers = check.count("workers.count", m.workers().count(), 1, 64);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  s.pool.run.threads = std::max(1, cores / std::max(1, s.pool.workers));
-  if (m.workers().has_threads()) s.pool.run.threads = check.count("workers.threads", m.workers().threads(), 1, 256);
+  s.worker.run.threads = std::max(1, cores / std::max(1, s.pool.workers));
+  if (m.workers().has_threads()) s.worker.run.threads = check.count("workers.threads", m.workers().threads(), 1, 256);
   if (m.workers().has_checkpoint_interval_s())
-    s.pool.run.checkpoint_interval_s =
+    s.worker.run.checkpoint_interval_s =
         check.number("workers.checkpoint_interval_s", m.workers().checkpoint_interval_s(), {0, 86400});
   if (m.workers().has_max_attempts_without_progress())
     s.max_stalled_attempts = check.count("workers.max_attempts_without_progress",

@@ -16,6 +16,7 @@ struct Flags {
   std::string config_file;  ///< empty: all defaults
   std::string data_dir, listen, log_level;
   int port = -1;
+  bool processes = true;  ///< executor if the file names none
 };
 
 struct Settings {
@@ -25,6 +26,8 @@ struct Settings {
   int commit_interval_ms = 250;
   int max_stalled_attempts = 10;
   jobs::PoolSettings pool;
+  bool processes = true;  ///< executor process, else thread
+  jobs::ProcessSettings worker;  ///< its `run` is for both
   jobs::QueueLimits limits;
   rpc::ServerSettings rpc;
 };

@@ -76,13 +76,17 @@ void serve(const Settings& settings, const std::string& address_file, const jobs
   for (const auto& uid : recovery.requeued) log->info("job={} event=recovered state=QUEUED", uid);
   for (const auto& uid : recovery.cancelled) log->info("job={} event=recovered state=CANCELLED", uid);
   for (const auto& uid : recovery.failed) log->warn("job={} event=recovered state=FAILED", uid);
-  jobs::WorkerPool pool(settings.pool, solver, workspace, *store, log);
+  const auto executor = settings.processes
+                            ? jobs::make_process_executor(settings.worker, workspace, *store, log)
+                            : jobs::make_thread_executor(settings.worker.run, solver, workspace, *store, log);
+  jobs::WorkerPool pool(settings.pool, *executor, *store, log);
   jobs::Queue queue(settings.limits, solver, workspace, *store, [&pool] { pool.wake(); },
                     [&pool](const std::string& uid) { pool.request_stop(uid); });
   rpc::Server server(settings.rpc, queue, *store);
   if (!address_file.empty()) write_address(address_file, server.address());
-  log->info("event=listening address={} data_dir={} workers={} threads={} version={}", server.address(),
-            settings.data_dir, settings.pool.workers, settings.pool.run.threads, code_version());
+  log->info("event=listening address={} data_dir={} executor={} workers={} threads={} version={}", server.address(),
+            settings.data_dir, settings.processes ? "process" : "thread", settings.pool.workers,
+            settings.worker.run.threads, code_version());
   const int signal = wait_for_signal();
   log->info("event=stopping signal={}", signal);
   const std::jthread clock = watch_the_clock(log);
@@ -103,7 +107,7 @@ void block_signals() {
   ::signal(SIGPIPE, SIG_IGN);
 }
 
-int run_daemon(int argc, char** argv, const jobs::Solver& solver) {
+int run_daemon(int argc, char** argv, const jobs::Solver& solver, bool processes) {
   block_signals();
   CLI::App app{"seawayd: runs simulations of ships in waves and keeps their results", "seawayd"};
   Flags flags;
@@ -121,6 +125,7 @@ int run_daemon(int argc, char** argv, const jobs::Solver& solver) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
+    flags.processes = processes;
     const Settings settings = load_settings(flags);
     const auto log = make_log(settings);
     try {

@@ -35,9 +35,21 @@ RunResult to_result(const sim::RunOutcome& outcome) {
 
 }  // namespace
 
+RunResult guarded(const std::function<sim::RunOutcome()>& run) {
+  try {
+    return to_result(run());
+  } catch (const Error& error) {
+    return {RunResult::End::failed, reason_of(error.code()), error.what()};
+  } catch (const std::bad_alloc&) {
+    return {RunResult::End::failed, store::Reason::memory, "out of memory; use larger cells or a machine with more"};
+  } catch (const std::exception& error) {
+    return {RunResult::End::failed, store::Reason::internal, error.what()};
+  }
+}
+
 RunResult run_job(const store::Job& job, const Solver& solver, const Workspace& workspace, store::JobStore& store,
                   const RunSettings& settings, std::stop_token stop, std::shared_ptr<spdlog::logger> log) {
-  try {
+  return guarded([&] {
     const v1::CreateJobRequest spec = decode_spec(job.spec);
     const sim::Case core = bind_case(spec.case_(), spec.files(), workspace);
     const std::string folder = workspace.run_folder(job.uid);
@@ -48,22 +60,15 @@ RunResult run_job(const store::Job& job, const Solver& solver, const Workspace& 
     options.folder = folder;
     options.checkpoint_interval = settings.checkpoint_interval_s;
     options.case_digest = job.digest;
-    RunResult result;
     try {
-      result = to_result(solver.run(core, options, observer, RunContext{log, std::move(stop), settings.threads}));
+      const sim::RunOutcome outcome = solver.run(core, options, observer, RunContext{log, std::move(stop), settings.threads});
+      observer.finish();
+      return outcome;
     } catch (...) {
       observer.finish();
       throw;
     }
-    observer.finish();
-    return result;
-  } catch (const Error& error) {
-    return {RunResult::End::failed, reason_of(error.code()), error.what()};
-  } catch (const std::bad_alloc&) {
-    return {RunResult::End::failed, store::Reason::memory, "out of memory; use larger cells or a machine with more"};
-  } catch (const std::exception& error) {
-    return {RunResult::End::failed, store::Reason::internal, error.what()};
-  }
+  });
 }
 
 }  // namespace seaway::jobs

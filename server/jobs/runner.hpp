@@ -2,6 +2,7 @@
 // One attempt at one job: from its stored case through the solver into the store. Runs in the caller's thread.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -21,11 +22,15 @@ struct RunSettings {
 
 /// How an attempt ended; the caller moves the job accordingly.
 struct RunResult {
-  enum class End { finished, stopped, failed };
+  /// `fault`: the worker broke, not the case; another attempt may succeed.
+  enum class End { finished, stopped, failed, fault };
   End end = End::failed;
-  store::Reason reason = store::Reason::none;  ///< failed
+  store::Reason reason = store::Reason::none;  ///< failed, fault
   std::string message;
 };
+
+/// What a run of the solver comes to, its exceptions included. Never throws.
+RunResult guarded(const std::function<sim::RunOutcome()>& run);
 
 /// Never throws. Before it returns all data of the attempt was handed to the store (not yet flushed).
 RunResult run_job(const store::Job& job, const Solver& solver, const Workspace& workspace, store::JobStore& store,

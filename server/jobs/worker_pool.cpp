@@ -11,9 +11,9 @@ namespace seaway::jobs {
 using store::Reason;
 using store::State;
 
-WorkerPool::WorkerPool(PoolSettings settings, Solver solver, const Workspace& workspace, store::JobStore& store,
+WorkerPool::WorkerPool(PoolSettings settings, Executor& executor, store::JobStore& store,
                        std::shared_ptr<spdlog::logger> log)
-    : settings_(settings), solver_(std::move(solver)), workspace_(workspace), store_(store), log_(std::move(log)) {
+    : settings_(settings), executor_(executor), store_(store), log_(std::move(log)) {
   for (int i = 0; i < settings_.workers; ++i) threads_.emplace_back([this] { work(); });
 }
 
@@ -29,14 +29,19 @@ void WorkerPool::wake() {
 
 void WorkerPool::request_stop(const std::string& uid) {
   const std::lock_guard lock(mutex_);
-  if (const auto run = running_.find(uid); run != running_.end()) run->second.request_stop();
+  if (const auto run = running_.find(uid); run != running_.end()) run->second.stop.request_stop();
+}
+
+void WorkerPool::request_kill(const std::string& uid) {
+  const std::lock_guard lock(mutex_);
+  if (const auto run = running_.find(uid); run != running_.end()) run->second.kill.request_stop();
 }
 
 void WorkerPool::drain() {
   {
     const std::lock_guard lock(mutex_);
     draining_ = true;
-    for (auto& [uid, stop] : running_) stop.request_stop();
+    for (auto& [uid, run] : running_) run.stop.request_stop();
   }
   wake_.notify_all();
   threads_.clear();  // joins
@@ -67,16 +72,16 @@ void WorkerPool::work() {
 }
 
 void WorkerPool::run_one(const store::Job& job) {
-  std::stop_source stop;
+  Running run;
   {
     const std::lock_guard lock(mutex_);
-    running_[job.uid] = stop;
-    if (draining_) stop.request_stop();
+    running_[job.uid] = run;
+    if (draining_) run.stop.request_stop();
   }
   // A cancellation between take_next() and here has found nobody to tell.
-  if (const auto now = store_.find(job.uid); now && now->state == State::cancelling) stop.request_stop();
+  if (const auto now = store_.find(job.uid); now && now->state == State::cancelling) run.stop.request_stop();
   log_->info("job={} event=started attempt={} after_sequence={}", job.uid, job.attempt, job.last_sequence);
-  const RunResult result = run_job(job, solver_, workspace_, store_, settings_.run, stop.get_token(), log_);
+  const RunResult result = executor_.run(job, {run.stop.get_token(), run.kill.get_token()});
   {
     const std::lock_guard lock(mutex_);
     running_.erase(job.uid);
@@ -117,6 +122,14 @@ bool WorkerPool::try_end(const std::string& uid, const RunResult& result) {
     case RunResult::End::failed:
       return move(State::running, State::failed, result.reason, result.message) ||
              move(State::cancelling, State::failed, result.reason, result.message);
+    case RunResult::End::fault: {
+      const auto moved = store_.end_by_fault(uid, result.reason, result.message, settings_.max_faults);
+      if (!moved) return false;
+      log_->warn("job={} event=fault state={} reason={} faults={} text=\"{}\"", uid, store::to_string(moved->state),
+                 store::to_string(result.reason), moved->faults, result.message);
+      if (moved->state == State::queued) wake();
+      return true;
+    }
   }
   return false;
 }

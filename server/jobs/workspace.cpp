@@ -59,6 +59,7 @@ std::string sha256_hex(std::string_view bytes) {
 Workspace::Workspace(std::string data_dir) : data_dir_(fs::absolute(std::move(data_dir)).lexically_normal().string()) {
   make_folder(fs::path(data_dir_) / "files");
   make_folder(fs::path(data_dir_) / "jobs");
+  make_folder(fs::path(data_dir_) / "leases");
 }
 
 std::string Workspace::keep_file(std::string_view content) const {
@@ -87,6 +88,26 @@ std::string Workspace::keep_file(std::string_view content) const {
   }
   sync_folder(folder);
   return path;
+}
+
+std::string Workspace::lease_path(const std::string& uid) const { return data_dir_ + "/leases/" + uid; }
+
+std::vector<std::string> Workspace::leases() const {
+  std::vector<std::string> out;
+  for (const auto& entry : fs::directory_iterator(fs::path(data_dir_) / "leases")) out.push_back(entry.path());
+  return out;
+}
+
+std::int64_t Workspace::run_bytes(const std::string& uid) const {
+  std::int64_t sum = 0;
+  std::error_code error;
+  // Files come and go while this looks: what is gone counts nothing.
+  for (fs::recursive_directory_iterator it(run_folder(uid), error), end; !error && it != end; it.increment(error)) {
+    std::error_code gone;
+    const auto size = it->is_regular_file(gone) ? it->file_size(gone) : 0;
+    if (!gone) sum += static_cast<std::int64_t>(size);
+  }
+  return sum;
 }
 
 std::string Workspace::run_folder(const std::string& uid) const { return data_dir_ + "/jobs/" + uid; }

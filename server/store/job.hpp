@@ -16,7 +16,7 @@ enum class State { queued = 1, held = 2, running = 3, cancelling = 4, succeeded 
 /// Numbers as in seaway.v1.Job.Reason.
 enum class Reason {
   none = 0, diverged, nan, time_limit, memory, worker_crash, checkpoint_lost, invalid_input, disk_full, user,
-  server_drain, executor_lost, server_restart, internal
+  server_drain, executor_lost, server_restart, internal, stalled
 };
 
 std::string_view to_string(State state);
@@ -40,7 +40,9 @@ struct Job {
   Reason reason = Reason::none;
   std::string message;
   int attempt = 0;          ///< starts of the solver so far
-  int stalled_attempts = 0; ///< attempts in a row that ended without a new sample
+  int stalled_attempts = 0; ///< attempts in a row that ended with the server, without a new sample
+  int faults = 0;           ///< attempts in a row that ended by a fault of the worker, without a new sample
+  std::int64_t run_ms = 0;  ///< computing time of all attempts
   std::string digest, code_version;
   std::string spec;         ///< opaque: case and files as submitted; empty in lists
   std::int64_t created_ns = 0, started_ns = 0, ended_ns = 0, updated_ns = 0;  ///< 0: not yet

@@ -52,6 +52,11 @@ class JobStore {
   /// over for the job before is durable too. Throws for moves that do not exist.
   virtual std::optional<Job> move(const std::string& uid, State from, State to, Reason reason,
                                   const std::string& message) = 0;
+  /// The attempt of a running job ended by a fault of its worker: back to the queue, or failed after
+  /// `max_faults` faults in a row without a new sample; a cancelling one is cancelled. Nothing if it does
+  /// not run. Everything handed over for the job before is durable too.
+  virtual std::optional<Job> end_by_fault(const std::string& uid, Reason reason, const std::string& message,
+                                          int max_faults) = 0;
   /// After a start: running jobs go back to the queue (or fail after `max_stalled` attempts in a row without
   /// a new sample), cancelling ones are cancelled.
   virtual Recovery recover(int max_stalled) = 0;
@@ -64,6 +69,8 @@ class JobStore {
   /// recorded once as a REPLAY_MISMATCH event, and the stored ones stay. One that leaves a gap is not stored and
   /// recorded as HISTORY_GAP.
   virtual void add_samples(const std::string& uid, std::vector<Sample> samples) = 0;
+  /// Computing time of the running attempt that is not accounted for yet.
+  virtual void add_run_time(const std::string& uid, std::int64_t ms) = 0;
   virtual void set_progress(const std::string& uid, const Progress& progress) = 0;
   virtual void put_stage(const std::string& uid, StageRow stage) = 0;
   virtual void add_checkpoint(const std::string& uid, Checkpoint checkpoint) = 0;

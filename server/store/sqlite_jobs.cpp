@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view job_columns =
     "id, uid, request_id, title, state, reason, message, attempt, stalled_attempts, digest, code_version, "
     "created_ns, started_ns, ended_ns, updated_ns, stage, stage_count, time_s, fraction, remaining_s, held, "
-    "last_sequence, checkpoint_sequence";
+    "last_sequence, checkpoint_sequence, faults, run_ms";
 
 Job read_job(const Statement& row, bool with_spec) {
   Job j;
@@ -34,7 +34,9 @@ Job read_job(const Statement& row, bool with_spec) {
                 row.real(19), row.integer(20) != 0};
   j.last_sequence = row.integer(21);
   j.checkpoint_sequence = row.integer(22);
-  if (with_spec) j.spec = row.text(23);
+  j.faults = static_cast<int>(row.integer(23));
+  j.run_ms = row.integer(24);
+  if (with_spec) j.spec = row.text(25);
   return j;
 }
 
@@ -127,6 +129,20 @@ std::optional<Job> move(Database& db, const std::string& uid, State from, State 
   job_id(db, uid);
   if (!apply_move(db, uid, from, to, reason, message, now)) return std::nullopt;
   return find(db, uid);
+}
+
+std::optional<Job> end_by_fault(Database& db, const std::string& uid, Reason reason, const std::string& message,
+                                int max_faults, std::int64_t now) {
+  job_id(db, uid);
+  const auto cancelled = move(db, uid, State::cancelling, State::cancelled, Reason::user, "the worker failed: " + message, now);
+  if (cancelled) return cancelled;
+  db.prepare("UPDATE jobs SET faults = CASE WHEN last_sequence > attempt_sequence THEN 1 ELSE faults + 1 END "
+             "WHERE uid = ? AND state = 3")
+      .bind(uid)
+      .run();
+  if (db.changes() == 0) return std::nullopt;
+  const bool again = find(db, uid)->faults < max_faults;
+  return move(db, uid, State::running, again ? State::queued : State::failed, reason, message, now);
 }
 
 Recovery recover(Database& db, int max_stalled, std::int64_t now) {

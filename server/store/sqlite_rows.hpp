@@ -18,6 +18,8 @@ std::vector<Job> list(Database& db, const ListQuery& query);
 std::optional<Job> take_next(Database& db, std::int64_t now);
 std::optional<Job> move(Database& db, const std::string& uid, State from, State to, Reason reason,
                         const std::string& message, std::int64_t now);
+std::optional<Job> end_by_fault(Database& db, const std::string& uid, Reason reason, const std::string& message,
+                                int max_faults, std::int64_t now);
 Recovery recover(Database& db, int max_stalled, std::int64_t now);
 bool erase(Database& db, const std::string& uid);
 
@@ -30,6 +32,7 @@ void add_samples(Database& db, const std::string& uid, const std::vector<Sample>
 void put_stage(Database& db, const std::string& uid, const StageRow& stage);
 void add_checkpoint(Database& db, const std::string& uid, const Checkpoint& checkpoint, std::int64_t now);
 void add_artifact(Database& db, const std::string& uid, const Artifact& artifact, std::int64_t now);
+void add_run_time(Database& db, const std::string& uid, std::int64_t ms);
 void set_progress(Database& db, const std::string& uid, const Progress& progress, std::int64_t now);
 void add_event(Database& db, const std::string& uid, const std::string& kind, const std::string& text,
                std::int64_t now);

@@ -145,6 +145,10 @@ void add_artifact(Database& db, const std::string& uid, const Artifact& a, std::
       .run();
 }
 
+void add_run_time(Database& db, const std::string& uid, std::int64_t ms) {
+  db.prepare("UPDATE jobs SET run_ms = run_ms + ? WHERE uid = ?").bind(ms, uid).run();
+}
+
 void set_progress(Database& db, const std::string& uid, const Progress& p, std::int64_t now) {
   db.prepare("UPDATE jobs SET stage = ?, stage_count = ?, time_s = ?, fraction = ?, remaining_s = ?, held = ?, "
              "updated_ns = ? WHERE uid = ?")

@@ -111,6 +111,10 @@ class SqliteStore final : public JobStore {
                           const std::string& message) override {
     return moved([&](Database& db) { return rows::move(db, uid, from, to, reason, message, now_ns_()); });
   }
+  std::optional<Job> end_by_fault(const std::string& uid, Reason reason, const std::string& message,
+                                  int max_faults) override {
+    return moved([&](Database& db) { return rows::end_by_fault(db, uid, reason, message, max_faults, now_ns_()); });
+  }
   Recovery recover(int max_stalled) override {
     Recovery out;
     change([&](Database& db, std::set<std::string>& touched) {
@@ -152,6 +156,9 @@ class SqliteStore final : public JobStore {
       }
       rows::add_samples(db, job, *fresh, now);
     });
+  }
+  void add_run_time(const std::string& uid, std::int64_t ms) override {
+    post(uid, [ms](Database& db, const std::string& job, std::int64_t) { rows::add_run_time(db, job, ms); });
   }
   void set_progress(const std::string& uid, const Progress& progress) override {
     post(uid, [progress](Database& db, const std::string& job, std::int64_t now) {

@@ -2,7 +2,7 @@
 find_package(Protobuf REQUIRED)
 find_package(gRPC CONFIG REQUIRED)
 find_package(CLI11 REQUIRED)
-seaway_library(fake_cascade SOURCES fake_cascade.cpp DEPENDS seaway::base)
+seaway_library(fake_cascade SOURCES fake_cascade.cpp fake_fault.cpp DEPENDS seaway::base)
 foreach(program daemon offline)
   add_executable(seaway_fake_${program} fake_daemon.cpp)
   target_link_libraries(seaway_fake_${program} PRIVATE seaway::daemon seaway::offline seaway::fake_cascade)

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "tests/support/fake_fault.hpp"
 
 namespace seaway::testing {
 namespace {
@@ -62,7 +63,7 @@ class FakeRun {
  public:
   FakeRun(const FakeOptions& fake, const sim::Case& c, const sim::RunOptions& options, sim::RunObserver& observer,
           const RunContext& context)
-      : fake_(fake), case_(c), options_(options), observer_(observer), context_(context) {}
+      : fake_(fake), case_(c), options_(options), observer_(observer), context_(context), fault_(c.title, options.folder) {}
 
   sim::RunOutcome run() {
     resume();
@@ -118,10 +119,11 @@ class FakeRun {
     if (fake_.step.count() > 0) std::this_thread::sleep_for(fake_.step);
     while (fake_.allowed_steps && fake_.allowed_steps->load() <= flow_.step && !context_.stop.stop_requested())
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return !context_.stop.stop_requested();
+    return !fault_.listens() || !context_.stop.stop_requested();
   }
 
   void advance() {
+    fault_.before(flow_.sequence + 1);
     ++flow_.step;
     ++flow_.step_in_stage;
     ++flow_.sequence;
@@ -210,6 +212,7 @@ class FakeRun {
   const sim::RunOptions& options_;
   sim::RunObserver& observer_;
   const RunContext& context_;
+  FakeFault fault_;
   Flow flow_;
   Clock::time_point last_checkpoint_;
   std::string newest_, before_;

@@ -3,7 +3,8 @@
 // of its own, artifacts; it can be stopped and resumed, and ends with the same bits as an unbroken run.
 //
 // The number of steps of a stage is its duration over time.dt (0.01 s if not given), at most 1e6. A title
-// with the word "diverge" blows up in the last stage; one with "broken" has an error in its check.
+// with the word "diverge" blows up in the last stage; one with "broken" has an error in its check;
+// for "fault" see fake_fault.hpp.
 #pragma once
 
 #include <atomic>
