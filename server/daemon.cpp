@@ -79,7 +79,7 @@ void serve(const Settings& settings, const std::string& address_file, const jobs
   const auto executor = settings.processes
                             ? jobs::make_process_executor(settings.worker, workspace, *store, log)
                             : jobs::make_thread_executor(settings.worker.run, solver, workspace, *store, log);
-  jobs::WorkerPool pool(settings.pool, *executor, *store, log);
+  jobs::WorkerPool pool(settings.pool, *executor, workspace, *store, log);
   jobs::Queue queue(settings.limits, solver, workspace, *store, [&pool] { pool.wake(); },
                     [&pool](const std::string& uid) { pool.request_stop(uid); });
   rpc::Server server(settings.rpc, queue, *store);

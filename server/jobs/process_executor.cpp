@@ -29,7 +29,8 @@ class ProcessExecutor final : public Executor {
     try {
       out = Supervision(settings_, workspace_, store_, log_, job).run(control);
     } catch (const std::exception& error) {
-      out = {RunResult::End::fault, store::Reason::executor_lost, error.what()};
+      const auto reason = says_no_space(error.what()) ? store::Reason::disk_full : store::Reason::executor_lost;
+      out = {RunResult::End::fault, reason, error.what()};
     }
     ::unlink(workspace_.lease_path(job.uid).c_str());
     return out;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "server/jobs/runner.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <new>
 
 #include "core/base/error.hpp"
@@ -15,13 +17,20 @@ store::Reason reason_of(ErrorCode code) {
     case ErrorCode::invalid_argument:
     case ErrorCode::not_found:
     case ErrorCode::failed_precondition: return store::Reason::invalid_input;
-    case ErrorCode::unavailable: return store::Reason::disk_full;
+    case ErrorCode::unavailable: return store::Reason::disk_full;  // see failure()
     case ErrorCode::resource_exhausted: return store::Reason::memory;
     case ErrorCode::data_loss: return store::Reason::checkpoint_lost;
     case ErrorCode::diverged: return store::Reason::diverged;
     case ErrorCode::internal: return store::Reason::internal;
   }
   return store::Reason::internal;
+}
+
+/// A full disk is nobody's fault: another attempt goes on once there is space.
+RunResult failure(const Error& error) {
+  if (error.code() == ErrorCode::unavailable || says_no_space(error.what()))
+    return {RunResult::End::fault, store::Reason::disk_full, error.what()};
+  return {RunResult::End::failed, reason_of(error.code()), error.what()};
 }
 
 RunResult to_result(const sim::RunOutcome& outcome) {
@@ -35,11 +44,15 @@ RunResult to_result(const sim::RunOutcome& outcome) {
 
 }  // namespace
 
+bool says_no_space(std::string_view message) {
+  return message.find(std::strerror(ENOSPC)) != message.npos || message.find(std::strerror(EDQUOT)) != message.npos;
+}
+
 RunResult guarded(const std::function<sim::RunOutcome()>& run) {
   try {
     return to_result(run());
   } catch (const Error& error) {
-    return {RunResult::End::failed, reason_of(error.code()), error.what()};
+    return failure(error);
   } catch (const std::bad_alloc&) {
     return {RunResult::End::failed, store::Reason::memory, "out of memory; use larger cells or a machine with more"};
   } catch (const std::exception& error) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <string_view>
 
 #include <spdlog/logger.h>
 
@@ -29,6 +30,8 @@ struct RunResult {
   std::string message;
 };
 
+/// Whether a failure says that the disk is full; the solver reports that under several codes.
+bool says_no_space(std::string_view message);
 /// What a run of the solver comes to, its exceptions included. Never throws.
 RunResult guarded(const std::function<sim::RunOutcome()>& run);
 

@@ -84,7 +84,10 @@ RunResult Supervision::run(const AttemptControl& control) {
   while (!records_ended_ || !child_->status()) {
     wait_for_news(wake.fd());
     read_errors();
-    read_records();
+    if (store_.is_stuck())
+      alive_ = news_ = Clock::now();  // what waits for the disk is enough: the pipe fills, and the run waits
+    else
+      read_records();
     if (control.kill.stop_requested()) kill(Verdict::kill);
     if (control.stop.stop_requested()) ask(Verdict::stop);
     watch(Clock::now());
@@ -249,6 +252,7 @@ RunResult Supervision::result() {
     const auto reason = static_cast<Reason>(outcome_->reason());
     if (outcome_->end() == Outcome::END_FINISHED) return {End::finished, Reason::none, outcome_->message()};
     if (outcome_->end() == Outcome::END_FAILED) return {End::failed, reason, outcome_->message()};
+    if (outcome_->end() == Outcome::END_FAULT) return {End::fault, reason, outcome_->message()};
     if (verdict_ == Verdict::stop) return {End::stopped, Reason::none, outcome_->message()};
   }
   if (outcome_ && verdict_ == Verdict::none)
@@ -260,6 +264,8 @@ RunResult Supervision::result() {
   if (verdict_ == Verdict::stop && killed) return {End::stopped, Reason::none, "it did not stop in time and was killed"};
   if (WIFEXITED(status) && WEXITSTATUS(status) == Worker::exit_no_memory)
     return fault(Reason::memory, "the worker got no more memory; use larger cells or raise workers.memory_mb");
+  if (WIFEXITED(status) && WEXITSTATUS(status) == Worker::exit_no_disk)
+    return fault(Reason::disk_full, "the lease cannot be written");
   if (killed) return fault(Reason::worker_crash, "the worker was killed (SIGKILL), perhaps by the system for lack of memory");
   if (WIFSIGNALED(status))
     return fault(Reason::worker_crash, fmt::format("the worker ended by SIG{} ({})", ::sigabbrev_np(WTERMSIG(status)),

@@ -163,7 +163,7 @@ void write_lease() {
   const std::string pid = std::to_string(::getpid()) + "\n";
   if (::ftruncate(Worker::lease_fd, 0) != 0 ||
       ::pwrite(Worker::lease_fd, pid.data(), pid.size(), 0) != static_cast<ssize_t>(pid.size()))
-    give_up("the lease cannot be written");
+    ::_exit(Worker::exit_no_disk);
 }
 
 }  // namespace
@@ -231,7 +231,7 @@ int Worker::run(const Solver& solver) {
   switch (result.end) {
     case RunResult::End::finished: outcome.set_end(worker::Record::Outcome::END_FINISHED); break;
     case RunResult::End::stopped: outcome.set_end(worker::Record::Outcome::END_STOPPED); break;
-    case RunResult::End::fault:
+    case RunResult::End::fault: outcome.set_end(worker::Record::Outcome::END_FAULT); break;
     case RunResult::End::failed: outcome.set_end(worker::Record::Outcome::END_FAILED); break;
   }
   outcome.set_reason(static_cast<int>(result.reason));

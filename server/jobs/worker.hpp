@@ -20,8 +20,8 @@ class Worker {
   int run(const Solver& solver);
 
   static constexpr int order_fd = 0, record_fd = 3, lease_fd = 4;
-  /// Exit code of a worker that got no memory.
-  static constexpr int exit_no_memory = 77;
+  /// Exit codes of a worker that got no memory, or could not write its lease.
+  static constexpr int exit_no_memory = 77, exit_no_disk = 78;
 
  private:
   struct State;

@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <limits>
+
 #include "core/base/error.hpp"
 
 namespace seaway::jobs {
@@ -11,9 +13,9 @@ namespace seaway::jobs {
 using store::Reason;
 using store::State;
 
-WorkerPool::WorkerPool(PoolSettings settings, Executor& executor, store::JobStore& store,
+WorkerPool::WorkerPool(PoolSettings settings, Executor& executor, const Workspace& workspace, store::JobStore& store,
                        std::shared_ptr<spdlog::logger> log)
-    : settings_(settings), executor_(executor), store_(store), log_(std::move(log)) {
+    : settings_(settings), executor_(executor), workspace_(workspace), store_(store), log_(std::move(log)) {
   for (int i = 0; i < settings_.workers; ++i) threads_.emplace_back([this] { work(); });
 }
 
@@ -122,16 +124,36 @@ bool WorkerPool::try_end(const std::string& uid, const RunResult& result) {
     case RunResult::End::failed:
       return move(State::running, State::failed, result.reason, result.message) ||
              move(State::cancelling, State::failed, result.reason, result.message);
-    case RunResult::End::fault: {
-      const auto moved = store_.end_by_fault(uid, result.reason, result.message, settings_.max_faults);
-      if (!moved) return false;
-      log_->warn("job={} event=fault state={} reason={} faults={} text=\"{}\"", uid, store::to_string(moved->state),
-                 store::to_string(result.reason), moved->faults, result.message);
-      if (moved->state == State::queued) wake();
-      return true;
-    }
+    case RunResult::End::fault: return end_fault(uid, result);
   }
   return false;
+}
+
+bool WorkerPool::end_fault(const std::string& uid, const RunResult& result) {
+  const bool full = result.reason == Reason::disk_full && !workspace_.has_space();
+  // A full disk does not count: the job waits for space as long as it takes.
+  const int allowed = full ? std::numeric_limits<int>::max() : settings_.max_faults;
+  const auto moved = store_.end_by_fault(uid, result.reason, result.message, allowed);
+  if (!moved) return false;
+  log_->warn("job={} event=fault state={} reason={} faults={} text=\"{}\"", uid, store::to_string(moved->state),
+             store::to_string(result.reason), moved->faults, result.message);
+  if (full) wait_for_space();
+  if (moved->state == State::queued) wake();
+  return true;
+}
+
+void WorkerPool::wait_for_space() {
+  log_->warn("event=paused text=\"the disk is full; jobs go on when there is space\"");
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    if (wake_.wait_for(lock, std::chrono::milliseconds(500), [&] { return draining_; })) return;
+    lock.unlock();
+    const bool space = workspace_.has_space();
+    lock.lock();
+    if (space) break;
+  }
+  lock.unlock();
+  log_->info("event=resumed text=\"the disk has space again\"");
 }
 
 }  // namespace seaway::jobs

@@ -23,8 +23,9 @@ struct PoolSettings {
 
 class WorkerPool {
  public:
-  /// `executor` and `store` must outlive the pool.
-  WorkerPool(PoolSettings settings, Executor& executor, store::JobStore& store, std::shared_ptr<spdlog::logger> log);
+  /// All that is given by reference must outlive the pool.
+  WorkerPool(PoolSettings settings, Executor& executor, const Workspace& workspace, store::JobStore& store,
+             std::shared_ptr<spdlog::logger> log);
   /// Drains.
   ~WorkerPool();
 
@@ -43,9 +44,12 @@ class WorkerPool {
   void run_one(const store::Job& job);
   void end_job(const std::string& uid, const RunResult& result);
   bool try_end(const std::string& uid, const RunResult& result);
+  bool end_fault(const std::string& uid, const RunResult& result);
+  void wait_for_space();
 
   const PoolSettings settings_;
   Executor& executor_;
+  const Workspace& workspace_;
   store::JobStore& store_;
   const std::shared_ptr<spdlog::logger> log_;
   std::mutex mutex_;

@@ -98,6 +98,17 @@ std::vector<std::string> Workspace::leases() const {
   return out;
 }
 
+bool Workspace::has_space() const {
+  std::string path = data_dir_ + "/probe.XXXXXX";
+  const int fd = ::mkostemp(path.data(), O_CLOEXEC);
+  if (fd < 0) return false;
+  const std::string bytes(1 << 20, '\0');  // more than a small write finds in a corner
+  const bool ok = ::write(fd, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()) && ::fsync(fd) == 0;
+  ::close(fd);
+  ::unlink(path.c_str());
+  return ok;
+}
+
 std::int64_t Workspace::run_bytes(const std::string& uid) const {
   std::int64_t sum = 0;
   std::error_code error;

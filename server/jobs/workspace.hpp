@@ -29,6 +29,8 @@ class Workspace {
   std::string lease_path(const std::string& uid) const;
   /// All that are there.
   std::vector<std::string> leases() const;
+  /// Whether the data folder takes new data: tries it.
+  bool has_space() const;
   /// Size of all files of a run.
   std::int64_t run_bytes(const std::string& uid) const;
   std::string run_folder(const std::string& uid) const;

@@ -87,6 +87,19 @@ Statement Database::prepare(std::string_view sql) {
 std::int64_t Database::changes() const { return sqlite3_changes64(db_); }
 std::int64_t Database::last_row_id() const { return sqlite3_last_insert_rowid(db_); }
 
+void Database::copy_to(const std::string& path) {
+  sqlite3* copy = nullptr;
+  int code = sqlite3_open_v2(path.c_str(), &copy, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
+  if (code == SQLITE_OK) {
+    sqlite3_backup* backup = sqlite3_backup_init(copy, "main", db_, "main");
+    if (backup != nullptr) sqlite3_backup_step(backup, -1);  // all at once: one read transaction, and readers do not block
+    code = backup != nullptr ? sqlite3_backup_finish(backup) : sqlite3_errcode(copy);
+  }
+  const std::string text = sqlite3_errmsg(copy);
+  sqlite3_close_v2(copy);
+  if (code != SQLITE_OK) fail(ErrorCode::unavailable, "{} cannot be written: {}", path, text);
+}
+
 void Database::checkpoint(bool truncate) {
   sqlite3_wal_checkpoint_v2(db_, nullptr, truncate ? SQLITE_CHECKPOINT_TRUNCATE : SQLITE_CHECKPOINT_PASSIVE,
                             nullptr, nullptr);

@@ -29,6 +29,8 @@ class Database {
   Statement prepare(std::string_view sql);
   std::int64_t changes() const;
   std::int64_t last_row_id() const;
+  /// A copy of the database, as it is now, in a new file that is durable when this returns.
+  void copy_to(const std::string& path);
   /// Writer only: moves the log into the file, as far as readers allow; all of it if `truncate`.
   void checkpoint(bool truncate);
   /// Pages in the log after the last commit of this connection.

@@ -78,6 +78,9 @@ class JobStore {
   virtual void add_event(const std::string& uid, const std::string& kind, const std::string& text) = 0;
   /// Returns when all that was handed over before is durable.
   virtual void flush() = 0;
+  /// The disk refused the last commit: what was handed over waits and is tried again every second. Producers
+  /// of data should pause.
+  virtual bool is_stuck() const = 0;
 
   // --- reading ---------------------------------------------------------------------------------------
   virtual std::vector<Channel> channels(const std::string& uid) const = 0;

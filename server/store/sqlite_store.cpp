@@ -186,6 +186,7 @@ class SqliteStore final : public JobStore {
     });
   }
   void flush() override { writer_.flush(); }
+  bool is_stuck() const override { return writer_.is_stuck(); }
 
   std::vector<Channel> channels(const std::string& uid) const override {
     return readers_.use([&](Database& db) { return rows::channels(db, uid); });

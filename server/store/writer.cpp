@@ -116,9 +116,11 @@ bool Writer::commit(std::deque<Task>& batch) {
       // SQLite has rolled back by itself.
     }
     warn_(std::string("commit refused: ") + error.what());
+    stuck_ = true;
     keep_posted(why);
     return batch.empty();
   }
+  stuck_ = false;
   // Listeners hear of it before the caller of call() goes on, so that they never lag behind an answer.
   committed_(touched);
   for (std::size_t i = 0; i < batch.size(); ++i) {

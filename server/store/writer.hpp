@@ -3,6 +3,7 @@
 // transaction (group commit), so that many small writes cost one sync of the disk.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -37,6 +38,8 @@ class Writer {
   void post(Change change);
   /// Returns when all that was posted before is durable.
   void flush();
+  /// The last commit was refused.
+  bool is_stuck() const { return stuck_; }
 
  private:
   struct Task {
@@ -56,6 +59,7 @@ class Writer {
   bool hurry_ = false;         // guarded by mutex_: someone waits
   bool stopping_ = false;      // guarded by mutex_
   std::chrono::steady_clock::time_point oldest_;  // guarded by mutex_: when the first task was queued
+  std::atomic<bool> stuck_{false};
   std::thread thread_;         // last: uses all of the above
 };
 

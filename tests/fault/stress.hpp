@@ -11,9 +11,12 @@
 namespace seaway::stress {
 
 struct Settings {
-  std::string seawayd, seaway_run, case_file;
+  std::string seawayd, seaway_run, case_file, disk_full_library;
   int clients = 100;
   int kills = 10;
+  int flips = 10000;
+  int first_write = 1, writes = 200;  ///< disk_full: the first one that fails, and how many of them
+  int write_step = 1;
   int threads = 1;                   ///< of the solver
   double seconds = 120;              ///< longest time to watch a run; it is cancelled then
   double checkpoint_interval_s = 5;
@@ -34,6 +37,8 @@ void print(const Line& line, bool json);
 std::vector<Line> watch(const Settings& settings);
 std::vector<Line> get_job(const Settings& settings);
 std::vector<Line> kill(const Settings& settings);
+std::vector<Line> bit_flips(const Settings& settings);
+std::vector<Line> disk_full(const Settings& settings);
 
 /// The case file as a request with a new id, with the table that it names.
 v1::CreateJobRequest request_of(const std::string& case_file);
@@ -41,6 +46,8 @@ v1::CreateJobRequest request_of(const std::string& case_file);
 std::vector<std::string> daemon_arguments(const Settings& settings, const std::string& folder);
 /// A channel that shares its connection with nobody.
 std::shared_ptr<grpc::Channel> own_channel(const std::string& address);
+/// The history of an unbroken run as CSV without its header, computed in `folder`.
+std::string unbroken_csv(const Settings& settings, const std::string& folder);
 /// The stored history as CSV without its header.
 std::string history_csv_of(client::JobClient& client, const std::string& job);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// seaway-stress NAME... : the bars of the service on the real programs. Names: watch, get_job, kill.
+// seaway-stress NAME... : the bars of the service on the real programs; see --list.
 #include <grpcpp/create_channel.h>
 
 #include <CLI/CLI.hpp>
@@ -46,7 +46,9 @@ v1::CreateJobRequest request_of(const std::string& case_file) {
 
 std::vector<std::string> daemon_arguments(const Settings& settings, const std::string& folder) {
   std::ofstream(folder + "/config.yaml") << "workers:\n  checkpoint_interval_s: " << settings.checkpoint_interval_s
-                                         << "\n  threads: " << settings.threads << "\n";
+                                         << "\n  threads: " << settings.threads
+                                         << "\n  executor: process\n  program: " << settings.seaway_run
+                                         << "\n  max_faults: 1000\n  max_attempts_without_progress: 1000\n";
   return {"--config", folder + "/config.yaml"};
 }
 
@@ -54,6 +56,14 @@ std::shared_ptr<grpc::Channel> own_channel(const std::string& address) {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+}
+
+std::string unbroken_csv(const Settings& s, const std::string& folder) {
+  const auto run = testing::run_program({s.seaway_run, s.case_file, "-o", folder + "/unbroken", "-q", "--threads", std::to_string(s.threads)});
+  if (run.code != 0) throw std::runtime_error("the unbroken run failed: " + run.output);
+  std::string text = testing::read_text(folder + "/unbroken/history.csv");
+  text.erase(0, text.find('\n') + 1);
+  return text;
 }
 
 std::string history_csv_of(client::JobClient& client, const std::string& job) {
@@ -66,21 +76,28 @@ std::string history_csv_of(client::JobClient& client, const std::string& job) {
 
 int main(int argc, char** argv) {
   using namespace seaway::stress;
-  const std::map<std::string, std::vector<Line> (*)(const Settings&)> all{{"watch", watch}, {"get_job", get_job}, {"kill", kill}};
+  const std::map<std::string, std::vector<Line> (*)(const Settings&)> all{{"watch", watch}, {"get_job", get_job}, {"kill", kill},
+                                                                                 {"bit_flips", bit_flips}, {"disk_full", disk_full}};
   CLI::App app{"seaway-stress: measures the promises of the service", "seaway-stress"};
   Settings s;
   std::vector<std::string> names;
   const std::string here = std::filesystem::canonical("/proc/self/exe").parent_path().string();
   s.seawayd = here + "/seawayd";
   s.seaway_run = here + "/seaway-run";
+  s.disk_full_library = here + "/../tests/libseaway_disk_full.so";
   bool list = false;
-  app.add_option("NAME", names, "watch, get_job, kill");
+  app.add_option("NAME", names, "see --list");
   app.add_flag("--list", list, "print the names");
   app.add_option("--case", s.case_file, "case file (YAML)");
   app.add_option("--seawayd", s.seawayd, "program of the server")->capture_default_str();
   app.add_option("--seaway-run", s.seaway_run, "program of the unbroken run")->capture_default_str();
   app.add_option("--clients", s.clients, "for watch")->capture_default_str();
   app.add_option("--kills", s.kills, "for kill")->capture_default_str();
+  app.add_option("--flips", s.flips, "for bit_flips")->capture_default_str();
+  app.add_option("--first-write", s.first_write, "for disk_full")->capture_default_str();
+  app.add_option("--writes", s.writes, "for disk_full")->capture_default_str();
+  app.add_option("--write-step", s.write_step, "for disk_full")->capture_default_str();
+  app.add_option("--disk-full-library", s.disk_full_library, "for disk_full")->capture_default_str();
   app.add_option("--threads", s.threads, "of the solver")->capture_default_str();
   app.add_option("--seconds", s.seconds, "longest time to watch a run")->capture_default_str();
   app.add_option("--checkpoint-interval", s.checkpoint_interval_s, "seconds")->capture_default_str();

@@ -10,3 +10,8 @@ foreach(program daemon offline)
 endforeach()
 target_compile_definitions(seaway_fake_offline PRIVATE SEAWAY_FAKE_OFFLINE)
 seaway_library(test_process SOURCES process.cpp)
+# A disk that fills up, for programs under test.
+add_library(seaway_disk_full MODULE disk_full.cpp)
+target_include_directories(seaway_disk_full PRIVATE ${PROJECT_SOURCE_DIR})
+target_link_libraries(seaway_disk_full PRIVATE ${CMAKE_DL_LIBS})
+set_target_properties(seaway_disk_full PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests CXX_STANDARD 20)

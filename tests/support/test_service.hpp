@@ -22,7 +22,7 @@ class TestService {
     store = open_store(folder.path());
     store->recover(10);
     executor = jobs::make_thread_executor({}, fake_solver(fake_), workspace, *store, quiet_context().log);
-    pool = std::make_unique<jobs::WorkerPool>(jobs::PoolSettings{}, *executor, *store, quiet_context().log);
+    pool = std::make_unique<jobs::WorkerPool>(jobs::PoolSettings{}, *executor, workspace, *store, quiet_context().log);
     queue = std::make_unique<jobs::Queue>(jobs::QueueLimits{}, fake_solver(fake_), workspace, *store, [this] { pool->wake(); },
                                           [this](const std::string& uid) { pool->request_stop(uid); });
     server = std::make_unique<rpc::Server>(settings_, *queue, *store);
