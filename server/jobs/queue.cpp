@@ -71,9 +71,9 @@ bool is_uid(const std::string& text) {
 }
 
 Queue::Queue(QueueLimits limits, Solver solver, const Workspace& workspace, store::JobStore& store,
-             std::function<void()> wake, std::function<void(const std::string&)> stop)
+             std::function<void()> wake, std::function<void(const std::string&)> stop, std::function<std::string()> make_uid)
     : limits_(limits), solver_(std::move(solver)), workspace_(workspace), store_(store), wake_(std::move(wake)),
-      stop_(std::move(stop)) {}
+      stop_(std::move(stop)), make_uid_(std::move(make_uid)) {}
 
 Submitted Queue::submit(const v1::CreateJobRequest& request) {
   if (!request.has_case_()) refuse("INVALID_REQUEST", "case", "is missing", "send the case to run");
@@ -97,7 +97,7 @@ Submitted Queue::submit(const v1::CreateJobRequest& request) {
     fail(ErrorCode::resource_exhausted, "the case needs about {:.0f} CPU seconds, allowed are {:.0f}; use larger cells or fewer periods",
          cpu_s, limits_.job_cpu_s);
   store::NewJob job;
-  job.uid = new_uid();
+  job.uid = make_uid_();
   job.request_id = lower(request.request_id());
   job.title = request.case_().title();
   job.spec = encode_spec(request.case_(), request.files());

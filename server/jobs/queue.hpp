@@ -22,11 +22,16 @@ struct Submitted {
   v1::CaseReport report;
 };
 
+/// Ten random letters and digits.
+std::string new_uid();
+bool is_uid(const std::string& text);
+
 class Queue {
  public:
   /// `wake`: a job was queued. `stop`: a running job shall end.
   Queue(QueueLimits limits, Solver solver, const Workspace& workspace, store::JobStore& store,
-        std::function<void()> wake, std::function<void(const std::string& uid)> stop);
+        std::function<void()> wake, std::function<void(const std::string& uid)> stop,
+        std::function<std::string()> make_uid = new_uid);
 
   /// Durable when it returns. Throws convert::InputError for a wrong case, a malformed request id, or a known
   /// one with another case (naming the fields); resource_exhausted when a limit is reached.
@@ -44,10 +49,7 @@ class Queue {
   store::JobStore& store_;
   const std::function<void()> wake_;
   const std::function<void(const std::string&)> stop_;
+  const std::function<std::string()> make_uid_;
 };
-
-/// Ten random letters and digits.
-std::string new_uid();
-bool is_uid(const std::string& text);
 
 }  // namespace seaway::jobs

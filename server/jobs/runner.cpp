@@ -60,6 +60,36 @@ RunResult guarded(const std::function<sim::RunOutcome()>& run) {
   }
 }
 
+std::optional<store::Job> end_attempt(store::JobStore& store, const std::string& uid, const RunResult& result,
+                                      int max_faults) {
+  using store::Reason;
+  using store::State;
+  const auto first = [&](auto... moves) {
+    std::optional<store::Job> out;
+    ((out = store.move(uid, moves.from, moves.to, moves.reason, moves.message)) || ...);
+    return out;
+  };
+  struct Move {
+    State from, to;
+    Reason reason;
+    std::string message;
+  };
+  switch (result.end) {
+    case RunResult::End::finished:
+      return first(Move{State::running, State::succeeded, Reason::none, result.message},
+                   Move{State::cancelling, State::succeeded, Reason::none, "the run had ended before it was cancelled"});
+    case RunResult::End::stopped:
+      // A cancelled job is CANCELLING before its run is asked to stop, so RUNNING here means a drain.
+      return first(Move{State::cancelling, State::cancelled, Reason::user, result.message},
+                   Move{State::running, State::queued, Reason::server_drain, result.message});
+    case RunResult::End::failed:
+      return first(Move{State::running, State::failed, result.reason, result.message},
+                   Move{State::cancelling, State::failed, result.reason, result.message});
+    case RunResult::End::fault: return store.end_by_fault(uid, result.reason, result.message, max_faults);
+  }
+  return std::nullopt;
+}
+
 RunResult run_job(const store::Job& job, const Solver& solver, const Workspace& workspace, store::JobStore& store,
                   const RunSettings& settings, std::stop_token stop, std::shared_ptr<spdlog::logger> log) {
   return guarded([&] {

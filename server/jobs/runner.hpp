@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -34,6 +35,11 @@ struct RunResult {
 bool says_no_space(std::string_view message);
 /// What a run of the solver comes to, its exceptions included. Never throws.
 RunResult guarded(const std::function<sim::RunOutcome()>& run);
+
+/// Moves the job of an attempt that has ended by what came of it; the job as it is then, or nothing if it did
+/// not run any more. `max_faults`: as JobStore::end_by_fault. Throws what the store throws.
+std::optional<store::Job> end_attempt(store::JobStore& store, const std::string& uid, const RunResult& result,
+                                      int max_faults);
 
 /// Never throws. Before it returns all data of the attempt was handed to the store (not yet flushed).
 RunResult run_job(const store::Job& job, const Solver& solver, const Workspace& workspace, store::JobStore& store,

@@ -106,39 +106,16 @@ void WorkerPool::end_job(const std::string& uid, const RunResult& result) {
 }
 
 bool WorkerPool::try_end(const std::string& uid, const RunResult& result) {
-  const auto move = [&](State from, State to, Reason reason, const std::string& message) {
-    const auto moved = store_.move(uid, from, to, reason, message);
-    if (moved)
-      log_->info("job={} event=ended state={} reason={} samples={} text=\"{}\"", uid, store::to_string(to),
-                 store::to_string(reason), moved->last_sequence, message);
-    return moved.has_value();
-  };
-  switch (result.end) {
-    case RunResult::End::finished:
-      return move(State::running, State::succeeded, Reason::none, result.message) ||
-             move(State::cancelling, State::succeeded, Reason::none, "the run had ended before it was cancelled");
-    case RunResult::End::stopped:
-      // A cancelled job is CANCELLING before its run is asked to stop, so RUNNING here means a drain.
-      return move(State::cancelling, State::cancelled, Reason::user, "") ||
-             move(State::running, State::queued, Reason::server_drain, "");
-    case RunResult::End::failed:
-      return move(State::running, State::failed, result.reason, result.message) ||
-             move(State::cancelling, State::failed, result.reason, result.message);
-    case RunResult::End::fault: return end_fault(uid, result);
-  }
-  return false;
-}
-
-bool WorkerPool::end_fault(const std::string& uid, const RunResult& result) {
-  const bool full = result.reason == Reason::disk_full && !workspace_.has_space();
+  const bool fault = result.end == RunResult::End::fault;
+  const bool full = fault && result.reason == Reason::disk_full && !workspace_.has_space();
   // A full disk does not count: the job waits for space as long as it takes.
-  const int allowed = full ? std::numeric_limits<int>::max() : settings_.max_faults;
-  const auto moved = store_.end_by_fault(uid, result.reason, result.message, allowed);
-  if (!moved) return false;
-  log_->warn("job={} event=fault state={} reason={} faults={} text=\"{}\"", uid, store::to_string(moved->state),
-             store::to_string(result.reason), moved->faults, result.message);
+  const auto job = end_attempt(store_, uid, result, full ? std::numeric_limits<int>::max() : settings_.max_faults);
+  if (!job) return false;
+  log_->log(fault ? spdlog::level::warn : spdlog::level::info,
+            "job={} event={} state={} reason={} faults={} samples={} text=\"{}\"", uid, fault ? "fault" : "ended",
+            store::to_string(job->state), store::to_string(job->reason), job->faults, job->last_sequence, job->message);
   if (full) wait_for_space();
-  if (moved->state == State::queued) wake();
+  if (job->state == State::queued) wake();
   return true;
 }
 

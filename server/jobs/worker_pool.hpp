@@ -44,7 +44,6 @@ class WorkerPool {
   void run_one(const store::Job& job);
   void end_job(const std::string& uid, const RunResult& result);
   bool try_end(const std::string& uid, const RunResult& result);
-  bool end_fault(const std::string& uid, const RunResult& result);
   void wait_for_space();
 
   const PoolSettings settings_;

@@ -24,10 +24,10 @@ namespace {
 
 }  // namespace
 
-Database::Database(const std::string& path, Role role) {
+Database::Database(const std::string& path, Role role, const std::string& vfs) {
   // Every connection is used by one thread at a time, so SQLite's own mutexes are not needed.
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | (role == Role::writer ? SQLITE_OPEN_CREATE : 0);
-  if (const int code = sqlite3_open_v2(path.c_str(), &db_, flags, nullptr); code != SQLITE_OK) {
+  if (const int code = sqlite3_open_v2(path.c_str(), &db_, flags, vfs.empty() ? nullptr : vfs.c_str()); code != SQLITE_OK) {
     const std::string text = db_ != nullptr ? sqlite3_errmsg(db_) : "out of memory";
     sqlite3_close(db_);
     fail(ErrorCode::unavailable, "database {}: {}", path, text);

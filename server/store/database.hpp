@@ -19,7 +19,8 @@ class Statement;
 class Database {
  public:
   enum class Role { writer, reader };
-  Database(const std::string& path, Role role);
+  /// `vfs`: how SQLite reaches its files; empty: as the system does.
+  Database(const std::string& path, Role role, const std::string& vfs = "");
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;

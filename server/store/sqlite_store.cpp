@@ -47,8 +47,8 @@ class LockFile {
 
 class ReaderPool {
  public:
-  ReaderPool(const std::string& path, int n) {
-    for (int i = 0; i < n; ++i) free_.push_back(std::make_unique<Database>(path, Database::Role::reader));
+  ReaderPool(const std::string& path, const std::string& vfs, int n) {
+    for (int i = 0; i < n; ++i) free_.push_back(std::make_unique<Database>(path, Database::Role::reader, vfs));
   }
   template <class F>
   auto use(F f) {
@@ -82,10 +82,10 @@ class SqliteStore final : public JobStore {
   explicit SqliteStore(SqliteOptions o)
       : now_ns_(o.now_ns ? o.now_ns : system_now_ns),
         warn_(o.warn ? o.warn : [](const std::string&) {}),
-        lock_(o.path + ".lock"),
-        prepared_(prepare_file(o.path)),
-        readers_(o.path, std::max(1, o.readers)),
-        writer_(o.path, o.commit_interval, [this](const auto& uids) { publish(uids); }, warn_) {}
+        lock_(o.vfs.empty() ? std::make_unique<LockFile>(o.path + ".lock") : nullptr),
+        prepared_(prepare_file(o.path, o.vfs)),
+        readers_(o.path, o.vfs, std::max(1, o.readers)),
+        writer_({o.path, o.vfs, o.commit_interval, o.own_thread, o.publish_too_early}, [this](const auto& uids) { publish(uids); }, warn_) {}
 
   Created create(const NewJob& job) override { return create_limited(job, 0); }
 
@@ -219,10 +219,10 @@ class SqliteStore final : public JobStore {
 
  private:
   /// Migrates and checks the file before any other connection opens it.
-  static bool prepare_file(const std::string& path) {
+  static bool prepare_file(const std::string& path, const std::string& vfs) {
     struct stat info {};
     const bool unclean = ::stat((path + "-wal").c_str(), &info) == 0 && info.st_size > 0;
-    Database db(path, Database::Role::writer);
+    Database db(path, Database::Role::writer, vfs);
     if (unclean) {
       Statement check = db.prepare("PRAGMA quick_check(1)");
       if (!check.step() || check.text(0) != "ok")
@@ -262,7 +262,7 @@ class SqliteStore final : public JobStore {
 
   const std::function<std::int64_t()> now_ns_;
   const std::function<void(const std::string&)> warn_;
-  const LockFile lock_;
+  const std::unique_ptr<LockFile> lock_;
   const bool prepared_;
   mutable ReaderPool readers_;
   std::mutex waiting_mutex_;

@@ -62,9 +62,9 @@ void check_histories(Database& db, Verification& out) {
 
 }  // namespace
 
-Verification verify_database(const std::string& path) {
-  check_file(path);
-  Database db(path, Database::Role::reader);
+Verification verify_database(const std::string& path, const std::string& vfs) {
+  if (vfs.empty()) check_file(path);
+  Database db(path, Database::Role::reader, vfs);
   Verification out;
   db.execute("BEGIN");  // one moment of it, whatever a server does
   check_pages(db, out);

@@ -15,7 +15,7 @@ struct Verification {
 
 /// Reads everything: pages and indexes, references, check sums of all chunks, histories without gaps. Throws
 /// Error(unavailable) if there is no such file, data_loss if it is no database.
-Verification verify_database(const std::string& path);
+Verification verify_database(const std::string& path, const std::string& vfs = "");
 
 /// Copies the database, as it is at one moment, to a new file; a running server is not disturbed. Throws
 /// Error: failed_precondition if `to` exists, unavailable if it cannot be written.

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <functional>
 #include <future>
 #include <memory>
@@ -14,6 +15,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "server/store/database.hpp"
 
@@ -26,8 +28,14 @@ class Writer {
   using Committed = std::function<void(const std::set<std::string>& touched)>;
   using Warn = std::function<void(const std::string&)>;
 
-  /// `interval`: longest time a change of post() waits. `committed` is called after each commit.
-  Writer(const std::string& path, std::chrono::milliseconds interval, Committed committed, Warn warn);
+  struct Options {
+    std::string path, vfs;
+    std::chrono::milliseconds interval{250};  ///< longest time a change of post() waits
+    bool own_thread = true;                   ///< otherwise call() writes what waits, in the caller's thread
+    bool publish_too_early = false;           ///< see SqliteOptions
+  };
+  /// `committed` is called after each commit.
+  Writer(const Options& options, Committed committed, Warn warn);
   /// Commits what is waiting.
   ~Writer();
 
@@ -48,9 +56,11 @@ class Writer {
   };
   void loop();
   bool commit(std::deque<Task>& batch);
+  void publish(std::deque<Task>& batch, const std::set<std::string>& touched, const std::vector<std::exception_ptr>& failures);
 
   Database db_;
   const std::chrono::milliseconds interval_;
+  const bool own_thread_, publish_too_early_;
   const Committed committed_;
   const Warn warn_;
   std::mutex mutex_;

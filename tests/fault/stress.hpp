@@ -14,6 +14,7 @@ struct Settings {
   std::string seawayd, seaway_run, case_file, disk_full_library;
   int clients = 100;
   int kills = 10;
+  int seeds = 10000;
   int flips = 10000;
   int first_write = 1, writes = 200;  ///< disk_full: the first one that fails, and how many of them
   int write_step = 1;
@@ -38,6 +39,7 @@ std::vector<Line> watch(const Settings& settings);
 std::vector<Line> get_job(const Settings& settings);
 std::vector<Line> kill(const Settings& settings);
 std::vector<Line> bit_flips(const Settings& settings);
+std::vector<Line> simulation(const Settings& settings);
 std::vector<Line> disk_full(const Settings& settings);
 
 /// The case file as a request with a new id, with the table that it names.

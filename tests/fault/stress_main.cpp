@@ -3,6 +3,7 @@
 #include <grpcpp/create_channel.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -77,7 +78,8 @@ std::string history_csv_of(client::JobClient& client, const std::string& job) {
 int main(int argc, char** argv) {
   using namespace seaway::stress;
   const std::map<std::string, std::vector<Line> (*)(const Settings&)> all{{"watch", watch}, {"get_job", get_job}, {"kill", kill},
-                                                                                 {"bit_flips", bit_flips}, {"disk_full", disk_full}};
+                                                                                 {"bit_flips", bit_flips}, {"disk_full", disk_full},
+                                                                                 {"simulation", simulation}};
   CLI::App app{"seaway-stress: measures the promises of the service", "seaway-stress"};
   Settings s;
   std::vector<std::string> names;
@@ -93,6 +95,7 @@ int main(int argc, char** argv) {
   app.add_option("--seaway-run", s.seaway_run, "program of the unbroken run")->capture_default_str();
   app.add_option("--clients", s.clients, "for watch")->capture_default_str();
   app.add_option("--kills", s.kills, "for kill")->capture_default_str();
+  app.add_option("--seeds", s.seeds, "for simulation")->capture_default_str();
   app.add_option("--flips", s.flips, "for bit_flips")->capture_default_str();
   app.add_option("--first-write", s.first_write, "for disk_full")->capture_default_str();
   app.add_option("--writes", s.writes, "for disk_full")->capture_default_str();
@@ -111,7 +114,9 @@ int main(int argc, char** argv) {
   if (s.seed == 0) s.seed = std::random_device{}();
   bool pass = true;
   try {
-    if (names.empty() || s.case_file.empty()) throw std::runtime_error("give names and --case; see --help");
+    const auto needs_case = [](const std::string& name) { return name != "simulation"; };
+    if (names.empty() || (s.case_file.empty() && std::any_of(names.begin(), names.end(), needs_case)))
+      throw std::runtime_error("give names and --case; see --help");
     for (const std::string& name : names) {
       if (all.count(name) == 0) throw std::runtime_error(name + " is unknown; see --list");
       for (const Line& line : all.at(name)(s)) {
