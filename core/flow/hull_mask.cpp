@@ -20,17 +20,6 @@ hull::OrientedBox<Dim> HullMask<Dim>::box_at(const HullGeometry<Dim>& g, const V
 }
 
 template <int Dim>
-std::size_t HullMask<Dim>::tile_of(const IVec<Dim>& cell) const {
-  constexpr int nb = BlockShape<Dim>::n;
-  std::size_t t = 0, m = 1;
-  for (int a = 0; a < Dim; ++a) {
-    t += static_cast<std::size_t>(std::clamp(cell[a], 0, window_.n()[a] - 1) / nb) * m;
-    m *= static_cast<std::size_t>(window_.n()[a] / nb);
-  }
-  return t;
-}
-
-template <int Dim>
 void HullMask<Dim>::make_patches(const HullGeometry<Dim>& g,
                                  std::vector<std::unique_ptr<hull::HullPatch<Dim>>>& out) const {
   constexpr int nb = BlockShape<Dim>::n;
@@ -39,16 +28,11 @@ void HullMask<Dim>::make_patches(const HullGeometry<Dim>& g,
   out.resize(tiles.size());
   mesh::parallel_for(static_cast<int>(tiles.size()), window_.forest().threads(), [&](int t) {
     const auto& tile = tiles[static_cast<std::size_t>(t)];
-    hull::Box<Dim> box{Vec<Dim>::Constant(1e300), Vec<Dim>::Constant(-1e300)};
-    for (int corner = 0; corner < (1 << Dim); ++corner) {  // control volumes reach half a cell out
-      IVec<Dim> i = tile.at;
-      Vec<Dim> x = window_.cell_centre(i);
-      for (int a = 0; a < Dim; ++a) x[a] += ((corner >> a) & 1) ? (nb + 0.1) * window_.h()[a] : -1.1 * window_.h()[a];
-      const Vec<Dim> y = motion::earth_to_hull<Dim>(body_, g.pose, x);
-      box.lower = box.lower.cwiseMin(y);
-      box.upper = box.upper.cwiseMax(y);
-    }
-    out[static_cast<std::size_t>(t)] = hull_->patch(box);
+    // Control volumes reach half a cell out.
+    const Vec<Dim> centre = window_.cell_centre(tile.at) + 0.5 * (nb - 1) * window_.h();
+    hull::OrientedBox<Dim> block = box_at(g, centre);
+    block.half = (0.5 * nb + 0.6) * window_.h();
+    out[static_cast<std::size_t>(t)] = hull_->patch(block);
   });
 }
 
@@ -190,7 +174,13 @@ void HullMask<Dim>::update(const motion::Pose<Dim>& now, const motion::Pose<Dim>
     }
   }
   const Vec<Dim> h = window_.forest().cell_size(window_.forest().n_levels() - 1);
-  moved_ = window_.cover(lower - clearance_ * h, upper + clearance_ * h) || !has_pose_;
+  const double clear = clearance_ * h.maxCoeff();
+  const auto touches = [&](const Vec<Dim>& middle, double reach) {
+    for (const auto& pose : {now, half_step})
+      if (hull_->signed_distance(motion::earth_to_hull<Dim>(body_, pose, middle)) < reach + clear) return true;
+    return false;
+  };
+  moved_ = window_.cover(lower - clearance_ * h, upper + clearance_ * h, touches) || !has_pose_;
   has_pose_ = true;
   // Half diagonal, and the table's interpolation error near corners.
   clip_distance_ = 0.5 * h.norm() + 0.25 * h.maxCoeff();
@@ -221,7 +211,7 @@ double HullMask<Dim>::submerged_solid(const IVec<Dim>& cell, const std::array<do
   hull::HalfSpace<Dim> water;
   water.normal = rotate.transpose() * n_earth;
   water.d = constant - n_earth.dot(now_.pose.cog) + water.normal.dot(body_.cog);
-  return patches_[tile_of(cell)]->solid_volume_below(box_at(now_, x), water);
+  return patches_[static_cast<std::size_t>(window_.tile_of(cell))]->solid_volume_below(box_at(now_, x), water);
 }
 
 template <int Dim>

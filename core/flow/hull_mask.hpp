@@ -67,7 +67,6 @@ class HullMask {
   void find_fluid_fractions();
   hull::OrientedBox<Dim> box_at(const HullGeometry<Dim>& g, const Vec<Dim>& centre) const;
   void make_patches(const HullGeometry<Dim>& g, std::vector<std::unique_ptr<hull::HullPatch<Dim>>>& out) const;
-  std::size_t tile_of(const IVec<Dim>& cell) const;
   bool porous(const HullGeometry<Dim>& g, const Vec<Dim>& x) const;
 
   std::shared_ptr<const hull::Hull<Dim>> hull_;

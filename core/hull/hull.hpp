@@ -38,11 +38,12 @@ struct HalfSpace {
 };
 
 /// The piece of the hull inside a box: made once per mesh block so that its queries are cheap.
+/// Control volumes lie inside that box and have its axes.
 template <int Dim>
 class HullPatch {
  public:
   virtual ~HullPatch() = default;
-  /// Exact in 2-D (polygon clipping).
+  /// Exact for the polygons (2-D) or the closed triangle surface (3-D).
   virtual SolidPart<Dim> solid_part(const OrientedBox<Dim>& cv) const = 0;
   /// Solid volume inside both the control volume and the half space.
   virtual double solid_volume_below(const OrientedBox<Dim>& cv, const HalfSpace<Dim>& water) const = 0;
@@ -60,7 +61,8 @@ class Hull {
   virtual double signed_distance(const Vec<Dim>& x) const = 0;
   /// Gradient of the distance (points into the fluid), not normalised.
   virtual Vec<Dim> distance_gradient(const Vec<Dim>& x) const = 0;
-  virtual std::unique_ptr<HullPatch<Dim>> patch(const Box<Dim>& box) const = 0;
+  /// `block` in hull axes; its half edges hold the margin in which control volumes may lie.
+  virtual std::unique_ptr<HullPatch<Dim>> patch(const OrientedBox<Dim>& block) const = 0;
   virtual Box<Dim> bounds() const = 0;
   /// Compartment index at a point, or -1 (sea, or solid).
   virtual int compartment_at(const Vec<Dim>& x) const = 0;

@@ -29,7 +29,9 @@ SectionHull::SectionHull(Section section, double spacing, double margin)
   }
 }
 
-std::unique_ptr<HullPatch<2>> SectionHull::patch(const Box<2>& box) const {
+std::unique_ptr<HullPatch<2>> SectionHull::patch(const OrientedBox<2>& block) const {
+  const Vec2 reach = block.axes.cwiseAbs() * block.half;
+  const Box<2> box{block.centre - reach, block.centre + reach};
   return std::make_unique<SectionPatch>(section_.solid, box, table_);
 }
 

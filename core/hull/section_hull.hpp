@@ -19,8 +19,9 @@ class SectionHull final : public Hull<2> {
 
   double signed_distance(const Vec2& x) const override { return table_->value(x); }
   Vec2 distance_gradient(const Vec2& x) const override { return table_->gradient(x); }
-  /// Queries of a patch must lie inside its box; what reaches out of it is seen as fluid.
-  std::unique_ptr<HullPatch<2>> patch(const Box<2>& box) const override;
+  /// Queries of a patch must lie inside the upright box around `block`; what reaches out of it is
+  /// seen as fluid. They may have other axes than the block.
+  std::unique_ptr<HullPatch<2>> patch(const OrientedBox<2>& block) const override;
   Box<2> bounds() const override { return bounds_; }
   /// A point in an opening belongs to no compartment (-1), nor does one inside a wall.
   int compartment_at(const Vec2& x) const override;

@@ -341,5 +341,6 @@ void CascadeRun<Dim>::report_progress(bool force) {
 }
 
 template class CascadeRun<2>;
+template class CascadeRun<3>;
 
 }  // namespace seaway::sim

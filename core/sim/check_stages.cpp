@@ -62,6 +62,7 @@ void check_mesh(CheckState& s, std::size_t i) {
     const RefinementBox& box = mesh.boxes[k];
     const std::string at = fmt::format("{}.boxes[{}]", field, k);
     if (f.positive(at + ".cell_m", box.cell)) check_cell(s, at + ".cell_m", box.cell);
+    if (s.c.dim == 3) f.extent(at + ".x_m", box.lower.x(), box.upper.x());
     f.extent(at + ".y_m", box.lower.y(), box.upper.y());
     f.extent(at + ".z_m", box.lower.z(), box.upper.z());
   }
@@ -169,9 +170,10 @@ double surface_cell(const Case& c, const Stage& stage) {
   for (const SurfaceBand& band : stage.mesh.surface)
     if (band.cell > 0) cell = std::min(cell, actual_cell(c.base_cell, band.cell));
   for (const RefinementBox& box : stage.mesh.boxes) {
-    const double y = c.body.offset.y();
-    const bool holds =
-        box.lower.y() <= y && box.upper.y() >= y && box.lower.z() <= 0 && box.upper.z() >= 0;
+    const Vec3 at(c.body.offset.x(), c.body.offset.y(), 0);
+    bool holds = true;
+    for (int a = 3 - c.dim; a < 3; ++a)
+      holds = holds && box.lower[a] <= at[a] && box.upper[a] >= at[a];
     if (holds && box.cell > 0) cell = std::min(cell, actual_cell(c.base_cell, box.cell));
   }
   return cell;

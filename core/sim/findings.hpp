@@ -11,6 +11,7 @@
 #include "core/hull/section_shape.hpp"
 #include "core/sim/case.hpp"
 #include "core/sim/check_case.hpp"
+#include "core/sim/mesh_regions.hpp"
 
 namespace seaway::sim {
 
@@ -45,11 +46,15 @@ struct CheckState {
   Findings& findings;
   CaseReport& report;
   bool tank_ok = false, fluids_ok = false, wave_ok = false, base_cell_ok = false;
+  int wave_axis = 1;                         ///< the tank's axis along which waves go
   double wave_length = 0, wave_period = 0;   ///< 0: calm water, or unknown
-  std::optional<hull::Section> section{};    ///< if the hull could be built
+  std::optional<hull::Section> section{};    ///< 2-D: if the hull could be built
+  std::optional<HullPlace<3>> place{};       ///< afloat at the start; in 2-D all x are 0
   bool body_ok = false;                      ///< numbers of the body
   double roll_period = 0, heave_period = 0;  ///< rough natural periods; 0: not free or unknown
   bool is_free(Dof dof) const;
+  /// Axes of the case in (x, y, z): from 1 in a section, from 0 in a ship's case.
+  int first_axis() const { return 3 - c.dim; }
   bool has_hull() const { return c.hull.shape != Hull::Shape::none; }
 };
 

@@ -464,5 +464,6 @@ double Simulation<Dim>::rms_water_velocity() const {
 }
 
 template class Simulation<2>;
+template class Simulation<3>;
 
 }  // namespace seaway::sim

@@ -161,5 +161,6 @@ class Simulation {
 };
 
 extern template class Simulation<2>;
+extern template class Simulation<3>;
 
 }  // namespace seaway::sim
