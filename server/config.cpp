@@ -34,7 +34,31 @@ void read_worker(const v1::Workers& m, const Flags& flags, convert::Checker& che
   if (m.has_disk_mb()) w.limits.disk_bytes = megabyte * check.count("workers.disk_mb", m.disk_mb(), 0, 100'000'000);
 }
 
+/// Who may do what.
+void read_security(const v1::Security& m, convert::Checker& check, rpc::AccessSettings& s) {
+  s.certificate = m.certificate();
+  s.key = m.key();
+  s.client_ca = m.client_ca();
+  for (int i = 0; i < m.principals_size(); ++i) {
+    const v1::Principal& p = m.principals(i);
+    const std::string field = "security.principals[" + std::to_string(i) + "]";
+    const auto hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+    if (p.name().empty()) check.problem(field + ".name", "is missing", "it stands in the audit trail");
+    if (p.role() == v1::Principal::ROLE_UNSPECIFIED) check.problem(field + ".role", "is missing", "allowed are viewer, submitter, admin");
+    if (p.token_sha256().empty() == p.subject().empty())
+      check.problem(field, "needs either token_sha256 or subject", "a token or a client certificate, not both");
+    if (!p.token_sha256().empty() &&
+        (p.token_sha256().size() != 64 || !std::all_of(p.token_sha256().begin(), p.token_sha256().end(), hex)))
+      check.problem(field + ".token_sha256", "is no SHA-256", "64 lower-case hexadecimal digits: printf %s TOKEN | sha256sum");
+    s.principals.push_back({p.name(), static_cast<rpc::Role>(p.role()), p.token_sha256(), p.subject()});
+  }
+}
+
+constexpr std::array<std::string_view, 5> levels{"trace", "debug", "info", "warn", "error"};
+
 }  // namespace
+
+bool is_log_level(const std::string& word) { return std::find(levels.begin(), levels.end(), word) != levels.end(); }
 
 Settings load_settings(const Flags& flags) {
   v1::ServerConfig m;
@@ -49,6 +73,13 @@ Settings load_settings(const Flags& flags) {
   if (m.storage().has_data_dir()) s.data_dir = m.storage().data_dir();
   if (m.storage().has_commit_interval_ms())
     s.commit_interval_ms = check.count("storage.commit_interval_ms", m.storage().commit_interval_ms(), 1, 10000);
+  if (m.storage().has_keep_days()) s.keep_days = check.number("storage.keep_days", m.storage().keep_days(), {0, 36500});
+  if (m.storage().has_keep_changes()) {
+    s.keep_changes = m.storage().keep_changes();
+    if (s.keep_changes < 1000 || s.keep_changes > 100'000'000)
+      check.problem("storage.keep_changes", std::to_string(s.keep_changes) + " is not allowed", "must be 1000 to 100000000");
+  }
+  read_security(m.security(), check, s.rpc.access);
   read_worker(m.workers(), flags, check, s);
   if (m.workers().has_count()) s.pool.workers = check.count("workers.count", m.workers().count(), 1, 64);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -71,8 +102,7 @@ Settings load_settings(const Flags& flags) {
   if (!flags.listen.empty()) s.rpc.address = flags.listen;
   if (flags.port >= 0) s.rpc.port = check.count("--port", flags.port, 0, 65535);
   if (!flags.log_level.empty()) s.log_level = flags.log_level;
-  static constexpr std::array<std::string_view, 5> levels{"trace", "debug", "info", "warn", "error"};
-  if (std::find(levels.begin(), levels.end(), s.log_level) == levels.end())
+  if (!is_log_level(s.log_level))
     check.problem("logging.level", "'" + s.log_level + "' is unknown", "allowed are trace, debug, info, warn, error");
   if (s.data_dir.empty()) check.problem("storage.data_dir", "is empty", "name a folder");
   if (!check.ok()) {

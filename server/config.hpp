@@ -25,6 +25,8 @@ struct Settings {
   std::string log_file;
   int commit_interval_ms = 250;
   int max_stalled_attempts = 10;
+  double keep_days = 0;  ///< 0: for ever
+  std::int64_t keep_changes = 100'000;
   jobs::PoolSettings pool;
   bool processes = true;  ///< executor process, else thread
   jobs::ProcessSettings worker;  ///< its `run` is for both
@@ -32,6 +34,8 @@ struct Settings {
   rpc::ServerSettings rpc;
 };
 
+/// trace, debug, info, warn, error
+bool is_log_level(const std::string& word);
 /// Throws convert::InputError or yaml::InputError with file, line, field, value and advice.
 Settings load_settings(const Flags& flags);
 

@@ -140,6 +140,28 @@ std::vector<std::string> Workspace::prepare_run(const std::string& uid, const st
   return removed;
 }
 
+std::optional<store::Checkpoint> Workspace::newest_checkpoint(const std::vector<store::Checkpoint>& checkpoints) const {
+  std::optional<store::Checkpoint> best;
+  for (const store::Checkpoint& c : checkpoints)
+    if (is_known(c.path, {c}, {}) && (!best || c.sequence >= best->sequence)) best = c;
+  return best;
+}
+
+store::Checkpoint Workspace::copy_checkpoint(const store::Checkpoint& checkpoint, const std::string& to_uid) const {
+  const fs::path folder = run_folder(to_uid);
+  make_folder(folder);
+  const fs::path target = folder / fs::path(checkpoint.path).filename();
+  std::error_code error;
+  fs::copy_file(checkpoint.path, target, fs::copy_options::overwrite_existing, error);
+  if (error) fail(ErrorCode::unavailable, "{}: {}", target.string(), error.message());
+  const int fd = ::open(target.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool ok = fd >= 0 && ::fsync(fd) == 0;
+  if (fd >= 0) ::close(fd);
+  if (!ok) fail(ErrorCode::unavailable, "{}: {}", target.string(), std::strerror(errno));
+  sync_folder(folder);
+  return describe_checkpoint(target.string(), checkpoint.sequence);
+}
+
 void Workspace::remove_run(const std::string& uid) const {
   std::error_code error;
   fs::remove_all(run_folder(uid), error);

@@ -6,6 +6,7 @@
 // Names that users chose never become file names. Safe from any thread.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,10 @@ class Workspace {
   /// Returns the names of what was removed.
   std::vector<std::string> prepare_run(const std::string& uid, const std::vector<store::Checkpoint>& checkpoints,
                                        const std::vector<store::Artifact>& artifacts) const;
+  /// The newest one whose file is still the one that was recorded.
+  std::optional<store::Checkpoint> newest_checkpoint(const std::vector<store::Checkpoint>& checkpoints) const;
+  /// Copies it, durably, into the folder of another run.
+  store::Checkpoint copy_checkpoint(const store::Checkpoint& checkpoint, const std::string& to_uid) const;
   void remove_run(const std::string& uid) const;
 
  private:

@@ -3,6 +3,8 @@
 
 #include <sqlite3.h>
 
+#include <cstdio>
+
 #include "core/base/error.hpp"
 
 namespace seaway::store {
@@ -89,6 +91,7 @@ std::int64_t Database::last_row_id() const { return sqlite3_last_insert_rowid(db
 
 void Database::copy_to(const std::string& path) {
   sqlite3* copy = nullptr;
+  std::remove(path.c_str());  // what an interrupted copy has left
   int code = sqlite3_open_v2(path.c_str(), &copy, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
   if (code == SQLITE_OK) {
     sqlite3_backup* backup = sqlite3_backup_init(copy, "main", db_, "main");

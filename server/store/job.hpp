@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +35,8 @@ struct Progress {
   bool held = false;
 };
 
+using Labels = std::map<std::string, std::string>;
+
 struct Job {
   std::int64_t id = 0;  ///< order of creation
   std::string uid, request_id, title;
@@ -48,10 +52,41 @@ struct Job {
   std::int64_t created_ns = 0, started_ns = 0, ended_ns = 0, updated_ns = 0;  ///< 0: not yet
   Progress progress;
   std::int64_t last_sequence = 0, checkpoint_sequence = 0;
+  int priority = 0;
+  Labels labels;
+  std::string note;
+  std::string base_uid;     ///< the job that this one repeats; empty: none
 };
 
 struct NewJob {
   std::string uid, request_id, title, digest, code_version, spec;
+  int priority = 0;
+  Labels labels;
+  std::string note, base_uid;
+  bool held = false;  ///< begins as HELD
+};
+
+/// What may change in any state.
+struct JobUpdate {
+  std::optional<int> priority;
+  std::optional<Labels> labels;  ///< replaces all
+  std::optional<std::string> note;
+};
+
+/// One change of a job; revisions have no gaps.
+struct Change {
+  std::int64_t revision = 0;
+  std::string uid, kind;  ///< CREATED, STATE, UPDATED, DELETED
+  State state = State::queued;
+  std::int64_t time_ns = 0;
+};
+struct ChangeRange {
+  std::int64_t first = 1, latest = 0;  ///< that are kept; none if latest < first
+};
+
+struct AuditRow {
+  std::string principal, peer, method, target, outcome;
+  std::int64_t time_ns = 0;
 };
 
 struct Channel {

@@ -11,9 +11,9 @@ namespace {
 constexpr std::string_view job_columns =
     "id, uid, request_id, title, state, reason, message, attempt, stalled_attempts, digest, code_version, "
     "created_ns, started_ns, ended_ns, updated_ns, stage, stage_count, time_s, fraction, remaining_s, held, "
-    "last_sequence, checkpoint_sequence, faults, run_ms";
+    "last_sequence, checkpoint_sequence, faults, run_ms, priority, note, base_uid";
 
-Job read_job(const Statement& row, bool with_spec) {
+Job read_job(Database& db, const Statement& row, bool with_spec) {
   Job j;
   j.id = row.integer(0);
   j.uid = row.text(1);
@@ -36,14 +36,18 @@ Job read_job(const Statement& row, bool with_spec) {
   j.checkpoint_sequence = row.integer(22);
   j.faults = static_cast<int>(row.integer(23));
   j.run_ms = row.integer(24);
-  if (with_spec) j.spec = row.text(25);
+  j.priority = static_cast<int>(row.integer(25));
+  j.note = row.text(26);
+  j.base_uid = row.text(27);
+  if (with_spec) j.spec = row.text(28);
+  j.labels = labels(db, j.id);
   return j;
 }
 
 std::optional<Job> find_by(Database& db, std::string_view column, const std::string& value) {
   Statement query = db.prepare("SELECT " + std::string(job_columns) + ", spec FROM jobs WHERE " + std::string(column) + " = ?");
   if (!query.bind(value).step()) return std::nullopt;
-  return read_job(query, true);
+  return read_job(db, query, true);
 }
 
 /// One guarded move with its event; false if the job was not in `from`.
@@ -64,6 +68,7 @@ bool apply_move(Database& db, const std::string& uid, State from, State to, Reas
   if (reason != Reason::none) text.append(1, ' ').append(to_string(reason));
   if (!message.empty()) text.append(": ").append(message);
   add_event(db, uid, "STATE", text, now);
+  add_change(db, uid, "STATE", now);
   return true;
 }
 
@@ -71,17 +76,27 @@ bool apply_move(Database& db, const std::string& uid, State from, State to, Reas
 
 Created create(Database& db, const NewJob& job, int limit, std::int64_t now) {
   if (auto known = find_by(db, "request_id", job.request_id)) return {std::move(*known), true};
+  {
+    Statement query = db.prepare("SELECT uid FROM tombstones WHERE request_id = ?");
+    if (query.bind(job.request_id).step())
+      fail(ErrorCode::failed_precondition, "job {} was made by this request and has been deleted; use a new request id",
+           query.text(0));
+  }
   if (limit > 0) {
     Statement query = db.prepare("SELECT count(*) FROM (SELECT 1 FROM jobs WHERE state = 1 LIMIT ?)");
     query.bind(limit);
     if (query.step() && query.integer(0) >= limit)
       fail(ErrorCode::resource_exhausted, "{} jobs are waiting, which is the limit; submit again later", limit);
   }
-  db.prepare("INSERT INTO jobs (uid, request_id, title, state, digest, code_version, spec, created_ns, updated_ns) "
-             "VALUES (?, ?, ?, 1, ?, ?, ?, ?, ?)")
-      .bind(job.uid, job.request_id, job.title, job.digest, job.code_version, Statement::Blob{job.spec}, now, now)
+  db.prepare("INSERT INTO jobs (uid, request_id, title, state, digest, code_version, spec, created_ns, updated_ns, "
+             "priority, note, base_uid, take_mark, rank) SELECT ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?8, ?9, ?10, ?11, value, "
+             "10 * ?9 - value FROM counters WHERE name = 'takes'")
+      .bind(job.uid, job.request_id, job.title, static_cast<int>(job.held ? State::held : State::queued), job.digest,
+            job.code_version, Statement::Blob{job.spec}, now, job.priority, job.note, job.base_uid)
       .run();
-  add_event(db, job.uid, "STATE", "QUEUED", now);
+  set_labels(db, db.last_row_id(), job.labels);
+  add_event(db, job.uid, "STATE", job.held ? "HELD" : "QUEUED", now);
+  add_change(db, job.uid, "CREATED", now);
   return {*find(db, job.uid), false};
 }
 
@@ -97,18 +112,26 @@ std::vector<Job> list(Database& db, const ListQuery& query) {
     sql += std::to_string(static_cast<int>(states[i]));
   }
   if (!states.empty()) sql += ")";
+  for (std::size_t i = 0; i < query.labels.size(); ++i)
+    sql += " AND EXISTS (SELECT 1 FROM labels WHERE job = jobs.id AND key = ? AND value = ?)";
   sql += " ORDER BY id DESC LIMIT ?";
   std::vector<Job> out;
   Statement rows = db.prepare(sql);
-  rows.bind(query.before_id > 0 ? query.before_id : std::int64_t{1} << 62, query.limit);
-  while (rows.step()) out.push_back(read_job(rows, false));
+  int index = 0;
+  rows.bind_one(++index, query.before_id > 0 ? query.before_id : std::int64_t{1} << 62);
+  for (const auto& [key, value] : query.labels) {
+    rows.bind_one(++index, key);
+    rows.bind_one(++index, value);
+  }
+  rows.bind_one(++index, query.limit);
+  while (rows.step()) out.push_back(read_job(db, rows, false));
   return out;
 }
 
 std::optional<Job> take_next(Database& db, std::int64_t now) {
   std::string uid;
   {
-    Statement query = db.prepare("SELECT uid FROM jobs WHERE state = 1 ORDER BY id LIMIT 1");
+    Statement query = db.prepare("SELECT uid FROM jobs WHERE state = 1 ORDER BY rank DESC, id LIMIT 1");
     if (!query.step()) return std::nullopt;
     uid = query.text(0);
   }
@@ -116,6 +139,7 @@ std::optional<Job> take_next(Database& db, std::int64_t now) {
              "CASE started_ns WHEN 0 THEN ? ELSE started_ns END WHERE uid = ?")
       .bind(now, uid)
       .run();
+  db.execute("UPDATE counters SET value = value + 1 WHERE name = 'takes'");
   db.prepare("INSERT INTO attempts (job, attempt, first_sequence, started_ns) "
              "SELECT id, attempt, last_sequence + 1, ? FROM jobs WHERE uid = ?")
       .bind(now, uid)
@@ -180,10 +204,16 @@ Recovery recover(Database& db, int max_stalled, std::int64_t now) {
   return out;
 }
 
-bool erase(Database& db, const std::string& uid) {
-  job_id(db, uid);
-  db.prepare("DELETE FROM jobs WHERE uid = ? AND state IN (5, 6, 7)").bind(uid).run();
-  return db.changes() > 0;
+bool erase(Database& db, const std::string& uid, std::int64_t now) {
+  const auto job = find(db, uid);
+  if (!job) fail(ErrorCode::not_found, "job {} does not exist", uid);
+  if (!is_terminal(job->state)) return false;
+  add_change(db, uid, "DELETED", now);
+  db.prepare("INSERT OR REPLACE INTO tombstones (request_id, uid, deleted_ns) VALUES (?, ?, ?)")
+      .bind(job->request_id, uid, now)
+      .run();
+  db.prepare("DELETE FROM jobs WHERE id = ?").bind(job->id).run();
+  return true;
 }
 
 }  // namespace seaway::store::rows

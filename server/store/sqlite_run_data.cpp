@@ -105,6 +105,7 @@ void add_run(Database& db, const std::string& uid, std::span<const Sample> run, 
     open.push_back(s);
     if (static_cast<int>(open.size()) < chunk_samples) continue;
     write_chunk(db, tail.id, open);
+    add_envelopes(db, uid, tail.id, open);
     open.clear();
   }
   if (!open.empty()) write_chunk(db, tail.id, open);

@@ -123,10 +123,37 @@ class SqliteStore final : public JobStore {
     });
     return out;
   }
+  Job update(const std::string& uid, const JobUpdate& what) override {
+    return *moved([&](Database& db) { return std::optional(rows::update(db, uid, what, now_ns_())); });
+  }
+  Job adopt_history(const std::string& uid, const std::string& from, const Checkpoint& checkpoint) override {
+    return *moved([&](Database& db) { return std::optional(rows::adopt_history(db, uid, from, checkpoint, now_ns_())); });
+  }
+  std::vector<std::string> ended_before(std::int64_t time_ns, int limit) const override {
+    return readers_.use([&](Database& db) { return rows::ended_before(db, time_ns, limit); });
+  }
+  void prune(std::int64_t keep, std::int64_t deleted_before_ns) override {
+    change([&](Database& db, std::set<std::string>&) { rows::prune(db, keep, deleted_before_ns); });
+  }
+  std::vector<Change> changes(std::int64_t after, int limit) const override {
+    return readers_.use([&](Database& db) { return rows::changes(db, after, limit); });
+  }
+  ChangeRange change_range() const override {
+    return readers_.use([&](Database& db) { return rows::change_range(db); });
+  }
+  std::map<State, std::int64_t> counts() const override {
+    return readers_.use([&](Database& db) { return rows::counts(db); });
+  }
+  void add_audit(AuditRow row) override {
+    writer_.post([this, row = std::move(row)](Database& db, std::set<std::string>&) { rows::add_audit(db, row, now_ns_()); });
+  }
+  std::vector<AuditRow> audit(int limit) const override {
+    return readers_.use([&](Database& db) { return rows::audit(db, limit); });
+  }
   bool erase(const std::string& uid) override {
     bool erased = false;
     change([&](Database& db, std::set<std::string>& touched) {
-      erased = rows::erase(db, uid);
+      erased = rows::erase(db, uid, now_ns_());
       touched.insert(uid);
     });
     return erased;
@@ -194,6 +221,10 @@ class SqliteStore final : public JobStore {
   std::vector<Sample> samples(const std::string& uid, std::int64_t after, int limit) const override {
     return readers_.use([&](Database& db) { return rows::samples(db, uid, after, limit); });
   }
+  std::vector<EnvelopePoint> envelope(const std::string& uid, std::int64_t after, std::int64_t until,
+                                      int max_points) const override {
+    return readers_.use([&](Database& db) { return rows::envelope(db, uid, after, until, max_points); });
+  }
   std::vector<StageRow> stages(const std::string& uid) const override {
     return readers_.use([&](Database& db) { return rows::stages(db, uid); });
   }
@@ -227,6 +258,15 @@ class SqliteStore final : public JobStore {
       Statement check = db.prepare("PRAGMA quick_check(1)");
       if (!check.step() || check.text(0) != "ok")
         fail(ErrorCode::data_loss, "{} is damaged: {}; restore a copy", path, check.text(0));
+    }
+    // Before anything of an older file is changed there is a copy of it.
+    if (const int version = version_of(db); version > 0 && version < schema_version() && vfs.empty()) {
+      const std::string copy = path + ".schema" + std::to_string(version);
+      if (::stat(copy.c_str(), &info) != 0) {
+        db.copy_to(copy + ".part");
+        if (std::rename((copy + ".part").c_str(), copy.c_str()) != 0)
+          fail(ErrorCode::unavailable, "{}: {}", copy, std::strerror(errno));
+      }
     }
     migrate(db);
     return true;

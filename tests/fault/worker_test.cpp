@@ -172,6 +172,19 @@ TEST_F(WorkerProcess, CancelStopsItAlsoIfItDoesNotListen) {
   EXPECT_EQ(ended(deaf).state(), v1::Job::STATE_CANCELLED);
 }
 
+TEST_F(WorkerProcess, KillNeedsNoConsentAndNoCheckpoint) {
+  start("  stop_grace_s: 3600\n", 2000);
+  const std::string deaf = submit("fault deaf@5");
+  wait_for_samples(deaf, 60);
+  client_->cancel(deaf);
+  EXPECT_EQ(client_->get(deaf).state(), v1::Job::STATE_CANCELLING);
+  client_->kill(deaf);
+  const v1::Job killed = ended(deaf);
+  EXPECT_EQ(killed.state(), v1::Job::STATE_CANCELLED);
+  EXPECT_LT(killed.latest_sequence(), 600);
+  EXPECT_EQ(killed.checkpoint_sequence() % 40, 0) << "only those that it had written anyway";
+}
+
 TEST_F(WorkerProcess, DiesWithTheServerAndTheNextOneGoesOn) {
   start("", 2000);
   const std::string name = submit("plain");

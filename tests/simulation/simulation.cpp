@@ -108,7 +108,7 @@ class Simulation {
       if (job.state == State::running || job.state == State::cancelling) violation("job " + job.uid + " runs after a start");
     queue_ = std::make_unique<jobs::Queue>(
         jobs::QueueLimits{}, jobs::Solver{{}, [](const sim::Case&) { return sim::CaseReport{}; }}, *workspace(), *store_, [] {},
-        [this](const std::string& uid) { stop_.insert(uid); }, [this] { return "j" + std::to_string(next_uid_++); });
+        [this](const std::string& uid) { stop_.insert(uid); }, [](const std::string&) {}, [this] { return "j" + std::to_string(next_uid_++); });
   }
 
   /// The queue keeps files of cases there; these cases have none.
@@ -202,7 +202,14 @@ class Simulation {
       clients_.push_back(c);
     }
     Client& c = again ? clients_[roll(clients_.size())] : clients_.back();
-    const auto answer = queue_->submit(request(c)).job;
+    jobs::Submitted submitted;
+    try {
+      submitted = queue_->submit(request(c));
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::failed_precondition && c.told_deleted) return;  // it knows that the job is gone
+      throw;
+    }
+    const store::Job& answer = submitted.job;
     note(static_cast<std::uint64_t>(answer.id));
     if (c.acknowledged && !c.told_deleted && c.uid != answer.uid) violation("one request became two jobs");
     if (c.told_deleted) return;  // it was deleted, so this is another job of nobody

@@ -24,7 +24,8 @@ class TestService {
     executor = jobs::make_thread_executor({}, fake_solver(fake_), workspace, *store, quiet_context().log);
     pool = std::make_unique<jobs::WorkerPool>(jobs::PoolSettings{}, *executor, workspace, *store, quiet_context().log);
     queue = std::make_unique<jobs::Queue>(jobs::QueueLimits{}, fake_solver(fake_), workspace, *store, [this] { pool->wake(); },
-                                          [this](const std::string& uid) { pool->request_stop(uid); });
+                                          [this](const std::string& uid) { pool->request_stop(uid); },
+                                          [this](const std::string& uid) { pool->request_kill(uid); });
     server = std::make_unique<rpc::Server>(settings_, *queue, *store);
   }
   void stop() {

@@ -49,7 +49,8 @@ class QueueTest : public ::testing::Test {
   std::unique_ptr<Executor> executor_;
   std::unique_ptr<WorkerPool> pool_;
   Queue queue_{QueueLimits{3, 0}, fake_solver(), workspace_, *store_, [this] { if (pool_) pool_->wake(); },
-               [this](const std::string& uid) { if (pool_) pool_->request_stop(uid); }};
+               [this](const std::string& uid) { if (pool_) pool_->request_stop(uid); },
+               [this](const std::string& uid) { if (pool_) pool_->request_kill(uid); }};
 };
 
 constexpr std::int64_t no_limit = 1'000'000'000;
