@@ -174,7 +174,7 @@ void HullMask<Dim>::update(const motion::Pose<Dim>& now, const motion::Pose<Dim>
     }
   }
   const Vec<Dim> h = window_.forest().cell_size(window_.forest().n_levels() - 1);
-  const double clear = clearance_ * h.maxCoeff();
+  const double clear = clearance_ * h.minCoeff();
   const auto touches = [&](const Vec<Dim>& middle, double reach) {
     for (const auto& pose : {now, half_step})
       if (hull_->signed_distance(motion::earth_to_hull<Dim>(body_, pose, middle)) < reach + clear) return true;

@@ -26,6 +26,8 @@ struct WeightedSurface {
   double weight = 1;
 };
 
+using Solid = std::vector<WeightedSurface>;
+
 /// Enclosed volume, negative if the triangles look inwards [m3].
 double enclosed_volume(const Surface& s);
 /// Integral of x over the enclosed volume [m4].

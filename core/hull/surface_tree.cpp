@@ -106,6 +106,49 @@ double SurfaceTree::distance(const Vec3& x, double limit, int* triangle) const {
   return std::sqrt(best);
 }
 
+int SurfaceTree::crossings(const Vec3& x, const Vec3& direction) const {
+  int sum = 0;
+  int stack[128], n = 0;
+  stack[n++] = 0;
+  while (n > 0) {
+    const Node& node = nodes_[stack[--n]];
+    double t0 = 0, t1 = 1e300;
+    for (int a = 0; a < 3; ++a) {  // no component of the directions below is 0
+      const double inverse = 1 / direction[a];
+      const double p = (node.centre[a] - node.half[a] - x[a]) * inverse,
+                   q = (node.centre[a] + node.half[a] - x[a]) * inverse;
+      t0 = std::max(t0, std::min(p, q));
+      t1 = std::min(t1, std::max(p, q));
+    }
+    if (t0 > t1 * (1 + 1e-12) + 1e-12) continue;
+    if (node.left >= 0) {
+      stack[n++] = node.left;
+      stack[n++] = node.left + 1;
+      continue;
+    }
+    for (int i = node.begin; i < node.end; ++i) {
+      const auto& t = surface_.triangles[order_[i]];
+      const Vec3 a = surface_.vertices[t[0]] - x, b = surface_.vertices[t[1]] - x,
+                 c = surface_.vertices[t[2]] - x;
+      const double wa = direction.dot(b.cross(c)), wb = direction.dot(c.cross(a)),
+                   wc = direction.dot(a.cross(b));
+      const bool left = wa > 0 && wb > 0 && wc > 0, right = wa < 0 && wb < 0 && wc < 0;
+      if (!left && !right) continue;
+      if (a.dot((b - a).cross(c - a)) / (wa + wb + wc) < 0) continue;  // behind
+      sum += left ? 1 : -1;
+    }
+  }
+  return sum;
+}
+
+bool SurfaceTree::contains(const Vec3& x) const {
+  // A ray through an edge or corner may miscount: the majority of three decides.
+  static const Vec3 directions[3] = {Vec3(0.7413, 0.5219, 0.4231), Vec3(-0.3571, 0.6113, -0.7062),
+                                     Vec3(0.1877, -0.8231, 0.5359)};
+  const bool one = crossings(x, directions[0]) > 0, two = crossings(x, directions[1]) > 0;
+  return one == two ? one : crossings(x, directions[2]) > 0;
+}
+
 // By the regions of the triangle's plane.
 double squared_distance_to_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ax = x - a;

@@ -33,7 +33,12 @@ class SurfaceTree {
   /// the one that is closest.
   double distance(const Vec3& x, double limit, int* triangle = nullptr) const;
 
+  /// Whether the surface encloses x: crossings of a ray, counted with their sign. Points on the
+  /// surface: either answer.
+  bool contains(const Vec3& x) const;
+
  private:
+  int crossings(const Vec3& x, const Vec3& direction) const;
   void build(int node, int begin, int end, std::vector<Vec3>& centroids);
 
   Surface surface_;

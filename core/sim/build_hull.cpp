@@ -23,10 +23,10 @@ hull::SectionSpec::Shape section_shape(Hull::Shape shape) {
       return hull::SectionSpec::Shape::polygon;
     case Hull::Shape::offsets_section:
       return hull::SectionSpec::Shape::offsets;
-    case Hull::Shape::none:
+    default:
       break;
   }
-  fail(ErrorCode::internal, "a case without hull has no section");
+  fail(ErrorCode::internal, "this hull is no section");
 }
 
 }  // namespace
@@ -40,13 +40,19 @@ double actual_cell(double base_cell, double wanted) {
 double hull_cell(const Case& c, const Stage& stage) {
   if (stage.mesh.hull_cell > 0) return actual_cell(c.base_cell, stage.mesh.hull_cell);
   double wanted = c.base_cell;
-  const Vec2 at(c.body.offset.y(), 0.0);
+  const Vec3 at(c.body.offset.x(), c.body.offset.y(), 0.0);
   for (const RefinementBox& box : stage.mesh.boxes) {
-    const bool holds = (from_vec3<2>(box.lower).array() <= at.array()).all() &&
-                       (from_vec3<2>(box.upper).array() >= at.array()).all();
+    bool holds = true;
+    for (int a = 3 - c.dim; a < 3; ++a) holds = holds && box.lower[a] <= at[a] && box.upper[a] >= at[a];
     if (holds && box.cell > 0) wanted = std::min(wanted, box.cell);
   }
   return actual_cell(c.base_cell, wanted);
+}
+
+std::string file_beside_case(const std::string& name, const std::string& folder) {
+  const std::filesystem::path file(name);
+  if (file.empty() || file.is_absolute() || folder.empty()) return name;
+  return (std::filesystem::path(folder) / file).string();
 }
 
 hull::SectionSpec section_spec(const Hull& hull, const std::string& folder) {
@@ -56,10 +62,7 @@ hull::SectionSpec section_spec(const Hull& hull, const std::string& folder) {
   spec.height = hull.height;
   spec.corner_radius = hull.corner_radius;
   for (const auto& v : hull.vertices) spec.vertices.emplace_back(v[0], v[1]);
-  const std::filesystem::path file(hull.offsets_file);
-  spec.offsets_file = file.empty() || file.is_absolute() || folder.empty()
-                          ? hull.offsets_file
-                          : (std::filesystem::path(folder) / file).string();
+  spec.offsets_file = file_beside_case(hull.offsets_file, folder);
   spec.station = hull.station;
   spec.scale = hull.scale;
   spec.extend_to = hull.extend_to;

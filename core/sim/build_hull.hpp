@@ -25,6 +25,9 @@ double actual_cell(double base_cell, double wanted);
 /// around the hull's start position at the calm level, else the base cell.
 double hull_cell(const Case& c, const Stage& stage);
 
+/// A file that a case names: relative names are looked up in its folder.
+std::string file_beside_case(const std::string& name, const std::string& folder);
+
 /// Before: shape is not none. Throws nothing; wrong values show in build_section.
 hull::SectionSpec section_spec(const Hull& hull, const std::string& folder);
 

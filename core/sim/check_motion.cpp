@@ -76,39 +76,6 @@ hull::Box<3> start_box(const CheckState& s) {
   return box;
 }
 
-void check_place(CheckState& s) {
-  if (!s.tank_ok) return;
-  const hull::Box<3> box = start_box(s);
-  const Tank& tank = s.c.tank;
-  for (int axis = s.first_axis(); axis < 3; ++axis) {
-    const double low = tank.lower[axis], high = tank.upper[axis];
-    if (box.lower[axis] > low && box.upper[axis] < high) continue;
-    s.findings.error(
-        fmt::format("tank.{}_m", "xyz"[axis]),
-        fmt::format(
-            "the hull at its start reaches from {:.4g} to {:.4g} m, outside the tank: {} to "
-            "{} m",
-            box.lower[axis], box.upper[axis], low, high),
-        "enlarge the tank, or check the hull's size, draft and body.offset");
-  }
-  const int axis = s.wave_axis;
-  if (tank.periodic[static_cast<std::size_t>(axis)]) return;
-  // The wave comes from the lower end if it goes along the axis.
-  const double along = axis == 1 ? std::sin(s.c.wave.heading) : std::cos(s.c.wave.heading);
-  const bool upwards = along > 0;
-  const double low =
-      tank.lower[axis] + (upwards ? s.c.zones.generation_length : s.c.zones.absorption_length);
-  const double high =
-      tank.upper[axis] - (upwards ? s.c.zones.absorption_length : s.c.zones.generation_length);
-  if (low < high && (box.lower[axis] < low || box.upper[axis] > high))
-    s.findings.error(
-        "zones",
-        fmt::format("the hull from {:.4g} to {:.4g} m stands in a zone; free of zones: "
-                    "{:.4g} to {:.4g} m",
-                    box.lower[axis], box.upper[axis], low, high),
-        "shorten the zones, lengthen the tank or move the hull (body.offset)");
-}
-
 void check_given_draft(CheckState& s, double capacity, double afloat) {
   const Body& body = s.c.body;
   const double top = hull::bounds_of(s.section->outer).upper.y();
@@ -192,6 +159,39 @@ void check_ship_numbers(CheckState& s) {
 }
 
 }  // namespace
+
+void check_place(CheckState& s) {
+  if (!s.tank_ok) return;
+  const hull::Box<3> box = start_box(s);
+  const Tank& tank = s.c.tank;
+  for (int axis = s.first_axis(); axis < 3; ++axis) {
+    const double low = tank.lower[axis], high = tank.upper[axis];
+    if (box.lower[axis] > low && box.upper[axis] < high) continue;
+    s.findings.error(
+        fmt::format("tank.{}_m", "xyz"[axis]),
+        fmt::format(
+            "the hull at its start reaches from {:.4g} to {:.4g} m, outside the tank: {} to "
+            "{} m",
+            box.lower[axis], box.upper[axis], low, high),
+        "enlarge the tank, or check the hull's size, draft and body.offset");
+  }
+  const int axis = s.wave_axis;
+  if (tank.periodic[static_cast<std::size_t>(axis)]) return;
+  // The wave comes from the lower end if it goes along the axis.
+  const double along = axis == 1 ? std::sin(s.c.wave.heading) : std::cos(s.c.wave.heading);
+  const bool upwards = along > 0;
+  const double low =
+      tank.lower[axis] + (upwards ? s.c.zones.generation_length : s.c.zones.absorption_length);
+  const double high =
+      tank.upper[axis] - (upwards ? s.c.zones.absorption_length : s.c.zones.generation_length);
+  if (low < high && (box.lower[axis] < low || box.upper[axis] > high))
+    s.findings.error(
+        "zones",
+        fmt::format("the hull from {:.4g} to {:.4g} m stands in a zone; free of zones: "
+                    "{:.4g} to {:.4g} m",
+                    box.lower[axis], box.upper[axis], low, high),
+        "shorten the zones, lengthen the tank or move the hull (body.offset)");
+}
 
 void check_body(CheckState& s) {
   Findings& f = s.findings;

@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/sim/build_hull.hpp"
+#include "core/sim/build_ship.hpp"
 #include "core/sim/mesh_regions.hpp"
 #include "core/sim/simulation.hpp"
 
@@ -97,6 +98,16 @@ Model<Dim> make_model(const Case& c) {
       m.displacement = c.body.mass / c.fluids.rho_water;
       add_natural_periods(c, section->section(), draft, periods);
     }
+  } else if (c.hull.shape != Hull::Shape::none) {
+    m.hull = build_surface_hull(c);
+    m.body = motion::make_rigid_body<Dim>(c.body.mass, c.body.cog, c.body.gyradii);
+    m.rest_cog = c.body.cog - Vec3(0, 0, c.body.draft);
+    m.start_pose = motion::make_pose<Dim>(m.rest_cog + c.body.offset,
+                                          {c.body.angles.x(), c.body.angles.y(), c.body.angles.z()});
+    std::vector<motion::Dof> free;
+    for (const Dof dof : c.body.free) free.push_back(static_cast<motion::Dof>(dof));
+    m.free = motion::free_dofs<Dim>(std::span<const motion::Dof>(free));
+    m.displacement = c.body.mass / c.fluids.rho_water;
   }
   m.period = m.wave ? m.wave->period() : periods.longest;
   m.dt = c.time.dt;

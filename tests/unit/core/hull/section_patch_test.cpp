@@ -244,8 +244,8 @@ TEST_F(ExampleSection, QueriesAreFast) {
     });
     const double face =
         nanoseconds([&](const auto& cv) { return patch->solid_face_fraction(cv, 0, true); });
-    std::printf("%d edges: solid_part %.0f ns, solid_volume_below %.0f ns, face %.0f ns\n",
-                dynamic_cast<const SectionPatch&>(*patch).n_edges(), part, below, face);
+    std::printf("block at (%.2f, %.2f): solid_part %.0f ns, solid_volume_below %.0f ns, face %.0f ns\n",
+                centre.x(), centre.y(), part, below, face);
 #ifdef NDEBUG
     EXPECT_LT(part, 5000.0);  // aim 500; loose because machines are shared
 #endif
