@@ -87,8 +87,9 @@ RpcError::RpcError(const grpc::Status& status)
   }
 }
 
-JobClient::JobClient(const std::string& server, const Credentials& credentials)
-    : authorization_(credentials.token.empty() ? "" : "Bearer " + credentials.token) {
+namespace {
+
+std::shared_ptr<grpc::Channel> open_channel(const std::string& server, const Credentials& credentials) {
   grpc::ChannelArguments arguments;
   // As the server expects it: pings every 30 s find a vanished peer.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
@@ -103,14 +104,23 @@ JobClient::JobClient(const std::string& server, const Credentials& credentials)
   const auto how = credentials.ca.empty()
                        ? grpc::InsecureChannelCredentials()
                        : grpc::SslCredentials({read_pem(credentials.ca), read_pem(credentials.key), read_pem(credentials.certificate)});
-  channel_ = grpc::CreateCustomChannel(server, how, arguments);
-  jobs_ = v1::Jobs::NewStub(channel_);
-  telemetry_ = v1::Telemetry::NewStub(channel_);
-  stages_ = v1::Stages::NewStub(channel_);
-  artifacts_ = v1::Artifacts::NewStub(channel_);
-  admin_ = v1::Admin::NewStub(channel_);
-  cases_ = v1::Cases::NewStub(channel_);
+  return grpc::CreateCustomChannel(server, how, arguments);
 }
+
+}  // namespace
+
+JobClient::JobClient(const std::string& server, const Credentials& credentials)
+    : JobClient(open_channel(server, credentials), credentials.token) {}
+
+JobClient::JobClient(std::shared_ptr<grpc::Channel> channel, std::string token)
+    : channel_(std::move(channel)),
+      jobs_(v1::Jobs::NewStub(channel_)),
+      telemetry_(v1::Telemetry::NewStub(channel_)),
+      stages_(v1::Stages::NewStub(channel_)),
+      artifacts_(v1::Artifacts::NewStub(channel_)),
+      admin_(v1::Admin::NewStub(channel_)),
+      cases_(v1::Cases::NewStub(channel_)),
+      authorization_(token.empty() ? "" : "Bearer " + token) {}
 
 v1::CreateJobResponse JobClient::create(const v1::CreateJobRequest& request) {
   return unary<v1::CreateJobResponse>(authorization_, [&](auto* c, auto* r) { return jobs_->CreateJob(c, request, r); }, 60);

@@ -60,6 +60,9 @@ class JobClient {
   /// TLS if there is a ca. Throws ClientError for files that cannot be read.
   explicit JobClient(const std::string& server, const Credentials& credentials = {});
 
+  /// On a channel of one's own.
+  explicit JobClient(std::shared_ptr<grpc::Channel> channel, std::string token = "");
+
   /// Repeats a submit that got no answer with the same request id, so that it makes one job.
   v1::CreateJobResponse create(const v1::CreateJobRequest& request);
   v1::Job get(const std::string& name, v1::JobView view = v1::JOB_VIEW_BASIC);

@@ -79,7 +79,7 @@ Submitted same_job(store::Job job, const std::string& spec, const std::string& d
 
 std::string new_uid() {
   static constexpr std::string_view letters = "abcdefghijkmnpqrstuvwxyz23456789";  // 32, none alike
-  std::random_device random;
+  static thread_local std::random_device random;  // opening it costs more than the letters
   std::string uid;
   for (int i = 0; i < 10; ++i) uid += letters[random() % letters.size()];
   return uid;

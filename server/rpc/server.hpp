@@ -17,7 +17,7 @@ struct ServerSettings {
   std::string address = "127.0.0.1";  ///< loopback, unix:/path; others need access settings
   int port = 0;                       ///< 0: any free one; unused with unix:
   int max_calls = 1000;
-  int work_threads = 4;
+  int work_threads = 16;  ///< they wait for commits: so many submits can share one
   StreamLimits streams;
   AccessSettings access;
   ServerFacts facts;

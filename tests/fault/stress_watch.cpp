@@ -30,13 +30,6 @@ struct Stream {
   }
 };
 
-double cpu_seconds(pid_t pid) {
-  const std::string stat = testing::read_text("/proc/" + std::to_string(pid) + "/stat");
-  unsigned long user = 0, system = 0;
-  std::sscanf(stat.c_str() + stat.rfind(')') + 1, " %*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu", &user, &system);
-  return static_cast<double>(user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
-}
-
 /// Gaps that `clients` watchers see until the run ends or `seconds` are over.
 int count_gaps(const std::string& address, const v1::Job& job, int clients, double seconds) {
   std::atomic<int> gaps{0};
