@@ -67,8 +67,10 @@ class FakeRun {
 
   sim::RunOutcome run() {
     resume();
-    observer_.on_channels({{"heave", "m"}, {"roll", "rad"}, {"sway", "m"}, {"force_z", "N/m"}, {"moment_x", "N"},
-                           {"water.volume", "m2"}});
+    std::vector<sim::Channel> channels{{"heave", "m"}, {"roll", "rad"}, {"sway", "m"}, {"force_z", "N/m"},
+                                       {"moment_x", "N"}, {"water.volume", "m2"}};
+    if (fake_.clock) channels.insert(channels.end(), {{"chaos", "1"}, {"clock", "s"}});
+    observer_.on_channels(channels);
     const bool diverges = case_.title.find("diverge") != std::string::npos;
     last_checkpoint_ = Clock::now();
     while (flow_.stage < static_cast<int>(case_.stages.size())) {
@@ -133,8 +135,10 @@ class FakeRun {
     const double size = 1 + 0.1 / (1 + flow_.stage);
     const double heave = 0.02 * size * std::sin(phase) + 1e-4 * flow_.chaos + fake_.perturbation;
     const double roll = 0.15 * size * std::sin(phase - 0.8);
-    observer_.on_sample({flow_.sequence, flow_.stage, flow_.step, flow_.time,
-                         {heave, roll, 0.01 * std::cos(phase), 9.81 * 60 * heave, roll * 22, 5 + 1e-9 * flow_.chaos}});
+    std::vector<double> values{heave, roll, 0.01 * std::cos(phase), 9.81 * 60 * heave, roll * 22, 5 + 1e-9 * flow_.chaos};
+    if (fake_.clock)
+      values.insert(values.end(), {flow_.chaos, std::chrono::duration<double>(Clock::now().time_since_epoch()).count()});
+    observer_.on_sample({flow_.sequence, flow_.stage, flow_.step, flow_.time, std::move(values)});
     std::int64_t total = 0;
     std::int64_t done = flow_.step_in_stage;
     for (int i = 0; i < static_cast<int>(case_.stages.size()); ++i) {

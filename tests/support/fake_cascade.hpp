@@ -19,6 +19,7 @@ struct FakeOptions {
   std::chrono::microseconds step{0};  ///< wall time of a step
   int checkpoint_steps = 0;           ///< a checkpoint every so many steps; 0: by the interval of the options
   double perturbation = 0;            ///< added to heave: a solver that does not repeat itself
+  bool clock = false;                 ///< two more channels, the last one the steady clock [s]: to measure delays
   /// The run waits before a step while this is below the step's number (tests let it go on step by step).
   std::shared_ptr<std::atomic<std::int64_t>> allowed_steps;
 };

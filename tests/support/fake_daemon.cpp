@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   seaway::testing::FakeOptions options;
   if (const char* step = std::getenv("SEAWAY_FAKE_STEP_US")) options.step = std::chrono::microseconds(std::atoi(step));
   if (const char* steps = std::getenv("SEAWAY_FAKE_CHECKPOINT_STEPS")) options.checkpoint_steps = std::atoi(steps);
+  options.clock = std::getenv("SEAWAY_FAKE_CLOCK") != nullptr;
   const auto solver = seaway::testing::fake_solver(options);
   if (worker) return worker->run(solver);
 #ifdef SEAWAY_FAKE_OFFLINE
