@@ -61,8 +61,8 @@ struct Job {
 struct NewJob {
   std::string uid, request_id, title, digest, code_version, spec;
   int priority = 0;
-  Labels labels;
-  std::string note, base_uid;
+  Labels labels{};
+  std::string note{}, base_uid{};
   bool held = false;  ///< begins as HELD
 };
 
