@@ -50,6 +50,8 @@ void copy_region(const T* source, const IVec<Dim>& strides, const IVec<Dim>& shi
   });
 }
 
+int floor_half(int i) { return i >= 0 ? i / 2 : -((1 - i) / 2); }
+
 /// The surroundings of a block as its parent's level has them, in coarse cells counted from the block's
 /// lower corner: entries -2 .. N/2 + 2 along each axis.
 template <class T, int Dim>
@@ -65,17 +67,38 @@ struct CoarsePatch {
   T operator()(const IVec<Dim>& i) const { return data[at(i)]; }
 };
 
+/// Range of the coarse entries that the interpolation of all wanted coarser neighbours reads.
+template <int Dim>
+void patch_range(const Block<Dim>& block, int layers, int face_axis, Neighbourhood from, IVec<Dim>& lower,
+                 IVec<Dim>& upper) {
+  constexpr int half = BlockShape<Dim>::n / 2;
+  lower = filled<Dim>(half + 3);
+  upper = filled<Dim>(-2);
+  for (int entry = 0; entry < BlockShape<Dim>::neighbours; ++entry) {
+    if (block.neighbour[static_cast<std::size_t>(entry)] != coarser_neighbour || !(from >> entry & 1)) continue;
+    IVec<Dim> low, high;
+    region_of<Dim>(neighbour_offset<Dim>(entry), layers, face_axis, low, high);
+    for (int a = 0; a < Dim; ++a) {
+      const int faces = a == face_axis;  // a fine face may lie between two coarse ones; no slope along its axis
+      lower[a] = std::min(lower[a], floor_half(low[a]) - 1 + faces);
+      upper[a] = std::max(upper[a], floor_half(high[a] - 1) + 2);
+    }
+  }
+  for (int a = 0; a < Dim; ++a) {
+    lower[a] = std::max(lower[a], -2);
+    upper[a] = std::min(upper[a], half + 2 + (a == face_axis));
+  }
+}
+
 template <class T, int Dim, class Source>
 void fill_patch(const Forest<Dim>& forest, int b, int face_axis, Source&& source, const IVec<Dim>& strides,
-                CoarsePatch<T, Dim>& patch) {
+                const IVec<Dim>& lower, const IVec<Dim>& upper, CoarsePatch<T, Dim>& patch) {
   constexpr int n = BlockShape<Dim>::n;
   constexpr int half = n / 2;
   const Block<Dim>& fine = forest.block(b);
   const Block<Dim>& parent = forest.block(fine.parent);
   IVec<Dim> base{};  // lower corner of the block in the parent's cells
   for (int a = 0; a < Dim; ++a) base[a] = (fine.coord[a] & 1) * half;
-  IVec<Dim> lower = filled<Dim>(-2), upper = filled<Dim>(half + 2);
-  if (face_axis >= 0) ++upper[face_axis];
   for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
     int entry = 0, power = 1;
     IVec<Dim> cell{};
@@ -99,8 +122,6 @@ void fill_patch(const Forest<Dim>& forest, int b, int face_axis, Source&& source
     patch.data[CoarsePatch<T, Dim>::at(i)] = source(nb)[offset<Dim>(cell, strides)];
   });
 }
-
-int floor_half(int i) { return i >= 0 ? i / 2 : -((1 - i) / 2); }
 
 template <class T, int Dim>
 T limited_slope(const CoarsePatch<T, Dim>& patch, const IVec<Dim>& c, int axis) {
@@ -184,7 +205,8 @@ void mirror(const Block<Dim>& block, int layers, int face_axis, const Boundaries
 
 template <class T, int Dim, class Source>
 void gather(const Forest<Dim>& forest, int b, int layers, int face_axis, Source&& source,
-            const IVec<Dim>& strides, const Boundaries<Dim>* boundaries, Scratch<T, Dim>& out) {
+            const IVec<Dim>& strides, const Boundaries<Dim>* boundaries, Neighbourhood from,
+            Scratch<T, Dim>& out) {
   constexpr int n = BlockShape<Dim>::n;
   const Block<Dim>& block = forest.block(b);
   bool boundary = false;
@@ -196,6 +218,7 @@ void gather(const Forest<Dim>& forest, int b, int layers, int face_axis, Source&
       boundary = true;
       continue;
     }
+    if (nb != b && !(from >> entry & 1)) continue;
     const IVec<Dim> off = neighbour_offset<Dim>(entry);
     IVec<Dim> lower, upper;
     region_of<Dim>(off, layers, face_axis, lower, upper);
@@ -206,7 +229,9 @@ void gather(const Forest<Dim>& forest, int b, int layers, int face_axis, Source&
       continue;
     }
     if (!patch_filled) {
-      fill_patch<T, Dim>(forest, b, face_axis, source, strides, patch);
+      IVec<Dim> patch_lower, patch_upper;
+      patch_range<Dim>(block, layers, face_axis, from, patch_lower, patch_upper);
+      fill_patch<T, Dim>(forest, b, face_axis, source, strides, patch_lower, patch_upper, patch);
       patch_filled = true;
     }
     for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
@@ -235,21 +260,23 @@ void gather(const Forest<Dim>& forest, int b, int layers, int face_axis, Source&
 
 template <class T, int Dim>
 void gather_cells(const Forest<Dim>& forest, const CellField<T, Dim>& f, int b, int layers,
-                  Scratch<T, Dim>& out) {
-  gather<T, Dim>(forest, b, layers, -1, [&](int nb) { return f.block(nb); }, cell_strides<Dim>(), nullptr, out);
+                  Scratch<T, Dim>& out, Neighbourhood from) {
+  gather<T, Dim>(forest, b, layers, -1, [&](int nb) { return f.block(nb); }, cell_strides<Dim>(), nullptr, from,
+                 out);
 }
 
 template <class T, int Dim>
 void gather_faces(const Forest<Dim>& forest, const FaceField<T, Dim>& f, int axis, int b, int layers,
-                  const Boundaries<Dim>& boundaries, Scratch<T, Dim>& out) {
+                  const Boundaries<Dim>& boundaries, Scratch<T, Dim>& out, Neighbourhood from) {
   gather<T, Dim>(forest, b, layers, axis, [&](int nb) { return f.block(axis, nb); }, face_strides<Dim>(axis),
-                 &boundaries, out);
+                 &boundaries, from, out);
 }
 
 #define SEAWAY_INSTANTIATE(T, D)                                                                          \
-  template void gather_cells<T, D>(const Forest<D>&, const CellField<T, D>&, int, int, Scratch<T, D>&);   \
+  template void gather_cells<T, D>(const Forest<D>&, const CellField<T, D>&, int, int, Scratch<T, D>&,    \
+                                   Neighbourhood);                                                        \
   template void gather_faces<T, D>(const Forest<D>&, const FaceField<T, D>&, int, int, int,               \
-                                   const Boundaries<D>&, Scratch<T, D>&);
+                                   const Boundaries<D>&, Scratch<T, D>&, Neighbourhood);
 SEAWAY_INSTANTIATE(double, 2)
 SEAWAY_INSTANTIATE(double, 3)
 SEAWAY_INSTANTIATE(float, 2)

@@ -168,11 +168,11 @@ void Advection<Dim>::update_momentum(const FlowState<Dim>& state, int axis, doub
     const bool pure = planes_.surroundings(b) != BlockPhase::mixed;
     Scratch<double, Dim> w, old_rho, new_rho, mass_flux;
     Scratch<double, Dim> flux, momentum, velocity;
-    field::gather_faces<double, Dim>(forest_, state.w, axis, b, 1, boundaries_, w);
+    field::gather_faces<double, Dim>(forest_, state.w, axis, b, 1, boundaries_, w, field::face_neighbours<Dim>());
     if (!pure) {
-      field::gather_cells<double, Dim>(forest_, state.vof, b, 2, old_rho);
-      field::gather_cells<double, Dim>(forest_, vof_new_, b, 1, new_rho);
-      field::gather_faces<double, Dim>(forest_, swept_, axis, b, 1, boundaries_, mass_flux);
+      field::gather_cells<double, Dim>(forest_, state.vof, b, 2, old_rho, field::around_axis<Dim>(axis));
+      field::gather_cells<double, Dim>(forest_, vof_new_, b, 1, new_rho, field::face_neighbours<Dim>());
+      field::gather_faces<double, Dim>(forest_, swept_, axis, b, 1, boundaries_, mass_flux, field::face_neighbours<Dim>());
       for (int i = 0; i < Shape::size; ++i) {  // the parts that are never filled are never used
         mass_flux.data[i] = fluids_.rho_air * cw * w.data[i] + jump * inverse_h * mass_flux.data[i];
         old_rho.data[i] = fluids_.rho_air + jump * old_rho.data[i];
@@ -181,7 +181,7 @@ void Advection<Dim>::update_momentum(const FlowState<Dim>& state, int axis, doub
     }
     for (int a = 0; a < Dim; ++a) {
       const int A = Shape::stride(a);
-      field::gather_faces<double, Dim>(forest_, state.u, a, b, 2, boundaries_, velocity);
+      field::gather_faces<double, Dim>(forest_, state.u, a, b, 2, boundaries_, velocity, field::beside<Dim>(axis));
       const IVec<Dim> upper = faces_upper<Dim>(a);
       IVec<Dim> boundary_upper = upper;  // lower boundaries of the control volumes along the sweep
       ++boundary_upper[axis];

@@ -17,7 +17,19 @@ using field::for_rows;
 using field::offset;
 
 template <int Dim>
-bool HullWindow<Dim>::cover(const Vec<Dim>& lower, const Vec<Dim>& upper) {
+void HullWindow<Dim>::check_missing(const Touches& touches) const {
+  const double reach = 0.5 * BlockShape<Dim>::n * h_.norm();
+  for (const Vec<Dim>& x : missing_) {
+    if (!touches(x, reach)) continue;
+    fail(ErrorCode::failed_precondition,
+         "the hull has left the region refined for it near (y, z) = ({:.3f}, {:.3f}) m; raise hull_sweep, "
+         "hull_heave or hull_margin of the stage's mesh, or check why it moves so far",
+         x[Dim - 2], x[Dim - 1]);
+  }
+}
+
+template <int Dim>
+bool HullWindow<Dim>::cover(const Vec<Dim>& lower, const Vec<Dim>& upper, const Touches& touches) {
   constexpr int nb = BlockShape<Dim>::n;
   const int level = forest_.n_levels() - 1;
   h_ = forest_.cell_size(level);
@@ -27,7 +39,10 @@ bool HullWindow<Dim>::cover(const Vec<Dim>& lower, const Vec<Dim>& upper) {
     first[a] = static_cast<int>(std::floor((lower[a] - forest_.grid().lower[a]) / edge));
     count[a] = static_cast<int>(std::floor((upper[a] - forest_.grid().lower[a]) / edge)) - first[a] + 1;
   }
-  if (first == first_block_ && count == blocks_) return false;
+  if (first == first_block_ && count == blocks_) {
+    check_missing(touches);
+    return false;
+  }
   first_block_ = first;
   blocks_ = count;
   size_ = 1;
@@ -40,7 +55,8 @@ bool HullWindow<Dim>::cover(const Vec<Dim>& lower, const Vec<Dim>& upper) {
     size_ *= static_cast<std::size_t>(n_[a] + 1);
   }
   tiles_.clear();
-  block_at_.clear();
+  tile_at_.clear();
+  missing_.clear();
   for_box<Dim>(filled<Dim>(0), count, [&](const IVec<Dim>& i) {
     IVec<Dim> coord = i, at = i;
     for (int a = 0; a < Dim; ++a) {
@@ -48,37 +64,44 @@ bool HullWindow<Dim>::cover(const Vec<Dim>& lower, const Vec<Dim>& upper) {
       at[a] *= nb;
     }
     const int b = forest_.find(level, coord);
-    if (b < 0 || !forest_.block(b).leaf) {
-      Vec<Dim> x;
-      for (int a = 0; a < Dim; ++a) x[a] = forest_.grid().lower[a] + (coord[a] + 0.5) * nb * h_[a];
-      fail(ErrorCode::failed_precondition,
-           "the hull has left the region refined for it near (y, z) = ({:.3f}, {:.3f}) m; raise hull_sweep, "
-           "hull_heave or hull_margin of the stage's mesh, or check why it moves so far",
-           x[Dim - 2], x[Dim - 1]);
+    if (b >= 0 && forest_.block(b).leaf) {
+      tile_at_.push_back(static_cast<int>(tiles_.size()));
+      tiles_.push_back({b, at});
+      return;
     }
-    tiles_.push_back({b, at});
-    block_at_.push_back(b);
+    Vec<Dim> x;
+    for (int a = 0; a < Dim; ++a) x[a] = forest_.grid().lower[a] + (coord[a] + 0.5) * nb * h_[a];
+    tile_at_.push_back(-1);
+    missing_.push_back(x);
   });
+  check_missing(touches);
   return true;
+}
+
+template <int Dim>
+int HullWindow<Dim>::tile_of(const IVec<Dim>& cell) const {
+  constexpr int nb = BlockShape<Dim>::n;
+  int t = 0, m = 1;
+  for (int a = 0; a < Dim; ++a) {
+    t += std::clamp(cell[a], 0, n_[a] - 1) / nb * m;
+    m *= blocks_[a];
+  }
+  return tile_at_[static_cast<std::size_t>(t)];
 }
 
 template <int Dim>
 std::int64_t HullWindow<Dim>::global_cell(const IVec<Dim>& i) const {
   constexpr int nb = BlockShape<Dim>::n;
-  int block = 0, m = 1;
   IVec<Dim> cell{};
-  for (int a = 0; a < Dim; ++a) {
-    block += i[a] / nb * m;
-    m *= blocks_[a];
-    cell[a] = i[a] % nb;
-  }
-  return static_cast<std::int64_t>(block_at_[static_cast<std::size_t>(block)]) * BlockShape<Dim>::cells +
-         offset<Dim>(cell, cell_strides<Dim>());
+  for (int a = 0; a < Dim; ++a) cell[a] = i[a] % nb;
+  const Tile& tile = tiles_[static_cast<std::size_t>(tile_of(i))];
+  return static_cast<std::int64_t>(tile.block) * BlockShape<Dim>::cells + offset<Dim>(cell, cell_strides<Dim>());
 }
 
 template <int Dim>
 void HullWindow<Dim>::load_cells(const CellField<double, Dim>& f, std::vector<double>& out) const {
-  out.resize(size_);
+  if (missing_.empty()) out.resize(size_);
+  else out.assign(size_, 0.0);
   for (const Tile& tile : tiles_) {
     const double* source = f.block(tile.block);
     for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
@@ -104,7 +127,8 @@ void HullWindow<Dim>::store_cells(const std::vector<double>& in, CellField<doubl
 template <int Dim>
 template <class T>
 void HullWindow<Dim>::load_faces(const FaceField<T, Dim>& f, int axis, std::vector<double>& out) const {
-  out.resize(size_);
+  if (missing_.empty()) out.resize(size_);
+  else out.assign(size_, 0.0);
   const int count = BlockShape<Dim>::n + (axis == 0);
   for (const Tile& tile : tiles_) {
     const T* source = f.block(axis, tile.block);
@@ -135,14 +159,36 @@ void HullWindow<Dim>::store_faces(const std::vector<double>& in, int axis, FaceF
 }
 
 template <int Dim>
-Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<double>& vof, int at) {
-  double stencil[Dim == 2 ? 9 : 27];
+Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<double>& vof,
+                           const std::vector<signed char>& spaces, int at) {
+  constexpr int entries = Dim == 2 ? 9 : 27, row = entries / 3;  // a row: the entries at one height
+  double stencil[entries];
+  bool behind[entries] = {};
+  bool any = false;
   int e = 0;
   for_box<Dim>(filled<Dim>(-1), filled<Dim>(2), [&](const IVec<Dim>& o) {
     int index = at;
     for (int a = 0; a < Dim; ++a) index += o[a] * window.stride(a);
-    stencil[e++] = vof[static_cast<std::size_t>(index)];
+    stencil[e] = vof[static_cast<std::size_t>(index)];
+    if (!spaces.empty()) {
+      const signed char own = spaces[static_cast<std::size_t>(at)], other = spaces[static_cast<std::size_t>(index)];
+      behind[e] = own != other && own >= 0 && other >= 0;
+      any = any || behind[e];
+    }
+    ++e;
   });
+  if (any) {
+    for (int height = 0; height < 3; ++height) {
+      double sum = 0;
+      int count = 0;
+      for (int k = height * row; k < (height + 1) * row; ++k)
+        if (!behind[k]) sum += stencil[k], ++count;
+      // Nothing of the own space at this height (a floor or a roof): as at the cell's own height.
+      const double mean = count > 0 ? sum / count : stencil[entries / 2];
+      for (int k = height * row; k < (height + 1) * row; ++k)
+        if (behind[k]) stencil[k] = mean;
+    }
+  }
   Plane<Dim> plane;
   plane.normal = interface_normal<Dim>(stencil);
   plane.d = plane_constant<Dim>(plane.normal, vof[static_cast<std::size_t>(at)]);
@@ -151,8 +197,10 @@ Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<doub
 
 template class HullWindow<2>;
 template class HullWindow<3>;
-template Plane<2> interface_plane<2>(const HullWindow<2>&, const std::vector<double>&, int);
-template Plane<3> interface_plane<3>(const HullWindow<3>&, const std::vector<double>&, int);
+template Plane<2> interface_plane<2>(const HullWindow<2>&, const std::vector<double>&,
+                                     const std::vector<signed char>&, int);
+template Plane<3> interface_plane<3>(const HullWindow<3>&, const std::vector<double>&,
+                                     const std::vector<signed char>&, int);
 #define SEAWAY_INSTANTIATE(T, D)                                                                     \
   template void HullWindow<D>::load_faces<T>(const FaceField<T, D>&, int, std::vector<double>&) const; \
   template void HullWindow<D>::store_faces<T>(const std::vector<double>&, int, FaceField<T, D>&) const;

@@ -1,9 +1,11 @@
-// A rectangle of whole finest-level blocks around the hull, held as dense arrays: everything that happens at
+// A box of whole finest-level blocks around the hull, held as dense arrays: everything that happens at
 // the hull (apertures, extension into it, volume book) works on plain indices here and never meets a block
-// edge or a level jump. Cells and faces share one layout: entry (i, j[, k]), 0 <= i <= n, axis 0 fastest;
+// edge or a level jump. Blocks in the box that the hull cannot touch may be coarser: the window has no tile there,
+// its entries keep what "far from the hull" means in each array (0 where fields are loaded). Cells and faces share one layout: entry (i, j[, k]), 0 <= i <= n, axis 0 fastest;
 // face i of an axis lies on the lower side of cell i.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/field/field.hpp"
@@ -21,10 +23,13 @@ class HullWindow {
  public:
   explicit HullWindow(const Forest<Dim>& forest) : forest_(forest) {}
 
+  /// Whether the hull may touch a block with this middle and half diagonal [m].
+  using Touches = std::function<bool(const Vec<Dim>& middle, double reach)>;
+
   /// Covers [lower, upper] (earth axes) with whole blocks. Throws Error(failed_precondition) when a block
-  /// there is not of the finest level: the hull has left the region refined for it.
+  /// there that the hull may touch is not of the finest level: the hull has left the region refined for it.
   /// Returns whether the blocks changed.
-  bool cover(const Vec<Dim>& lower, const Vec<Dim>& upper);
+  bool cover(const Vec<Dim>& lower, const Vec<Dim>& upper, const Touches& touches);
 
   const IVec<Dim>& n() const { return n_; }       ///< cells along each axis
   std::size_t size() const { return size_; }      ///< entries of an array
@@ -53,6 +58,8 @@ class HullWindow {
     IVec<Dim> at{};  ///< window index of the block's first cell
   };
   const std::vector<Tile>& tiles() const { return tiles_; }
+  /// Index into tiles() of the one that holds a cell (clamped to the window); -1 if there is none.
+  int tile_of(const IVec<Dim>& cell) const;
   /// Index block * cells + cell in a field of the forest.
   std::int64_t global_cell(const IVec<Dim>& i) const;
 
@@ -77,20 +84,25 @@ class HullWindow {
   const Forest<Dim>& forest() const { return forest_; }
 
  private:
+  void check_missing(const Touches& touches) const;
+
   const Forest<Dim>& forest_;
   IVec<Dim> first_block_{}, n_{};
   std::array<int, Dim> stride_{};
   std::size_t size_ = 0;
   Vec<Dim> origin_ = Vec<Dim>::Zero(), h_ = Vec<Dim>::Ones();
   std::vector<Tile> tiles_;
-  std::vector<int> block_at_;  ///< dense, by block position in the window
+  std::vector<int> tile_at_;       ///< dense, by block position in the window; -1: no tile
+  std::vector<Vec<Dim>> missing_;  ///< middles of the blocks without a tile
   IVec<Dim> blocks_{};
 };
 
 /// Plane of the interface in a mixed cell, from the volume fractions around it (window array). The cell
-/// must not lie on the window's edge.
+/// must not lie on the window's edge. With the spaces of cells (core/flow/hull_mask.hpp; may be empty) what lies
+/// behind a wall counts as the mean of the cells of the own space at the same height.
 template <int Dim>
-Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<double>& vof, int at);
+Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<double>& vof,
+                           const std::vector<signed char>& spaces, int at);
 
 extern template class HullWindow<2>;
 extern template class HullWindow<3>;

@@ -38,16 +38,35 @@ struct HalfSpace {
 };
 
 /// The piece of the hull inside a box: made once per mesh block so that its queries are cheap.
+/// Control volumes lie inside that box and have its axes.
+///
+/// Connected spaces, for walls thinner than the cells: 0 is the sea, 1 + i compartment i. Each point
+/// belongs to one of them or to a wall; openings (the holes in walls) belong to the sea.
 template <int Dim>
 class HullPatch {
  public:
   virtual ~HullPatch() = default;
-  /// Exact in 2-D (polygon clipping).
+  /// Exact for the polygons (2-D) or the closed triangle surface (3-D).
   virtual SolidPart<Dim> solid_part(const OrientedBox<Dim>& cv) const = 0;
   /// Solid volume inside both the control volume and the half space.
   virtual double solid_volume_below(const OrientedBox<Dim>& cv, const HalfSpace<Dim>& water) const = 0;
   /// Solid fraction (0..1) of the face of `cv` on side `high` (false: lower) of its own axis `axis`.
   virtual double solid_face_fraction(const OrientedBox<Dim>& cv, int axis, bool high) const = 0;
+
+  /// As the three above for all that is not fluid of connected space `space`: walls and the other
+  /// spaces, and of the space itself what its permeability leaves solid. A hull without
+  /// compartments has space 0 alone, for which they are the same.
+  virtual SolidPart<Dim> outside_space(const OrientedBox<Dim>& cv, int /*space*/) const { return solid_part(cv); }
+  virtual double outside_space_below(const OrientedBox<Dim>& cv, const HalfSpace<Dim>& water, int /*space*/) const {
+    return solid_volume_below(cv, water);
+  }
+  virtual double outside_space_face_fraction(const OrientedBox<Dim>& cv, int axis, bool high, int /*space*/) const {
+    return solid_face_fraction(cv, axis, high);
+  }
+  /// Part of the control volume in the openings' boxes, each extended along its thinnest direction
+  /// on both sides by a length that was given when the hull was made. Boxes that overlap count twice,
+  /// up to the whole control volume.
+  virtual SolidPart<Dim> opening_part(const OrientedBox<Dim>& /*cv*/) const { return {}; }
 };
 
 template <int Dim>
@@ -60,13 +79,21 @@ class Hull {
   virtual double signed_distance(const Vec<Dim>& x) const = 0;
   /// Gradient of the distance (points into the fluid), not normalised.
   virtual Vec<Dim> distance_gradient(const Vec<Dim>& x) const = 0;
-  virtual std::unique_ptr<HullPatch<Dim>> patch(const Box<Dim>& box) const = 0;
+  /// `block` in hull axes; its half edges hold the margin in which control volumes may lie.
+  virtual std::unique_ptr<HullPatch<Dim>> patch(const OrientedBox<Dim>& block) const = 0;
   virtual Box<Dim> bounds() const = 0;
   /// Compartment index at a point, or -1 (sea, or solid).
   virtual int compartment_at(const Vec<Dim>& x) const = 0;
   virtual int n_compartments() const = 0;
+  /// Around all compartments; lower > upper if there are none.
+  virtual Box<Dim> compartment_bounds() const {
+    return {Vec<Dim>::Constant(1e300), Vec<Dim>::Constant(-1e300)};
+  }
   /// Whether any compartment has a permeability below 1.
   virtual bool has_porous_space() const { return false; }
+  /// Connected space (0 sea, 1 + i compartment i) whose fluid is nearest to x, also defined in walls;
+  /// inside an opening's box -1.
+  virtual int space_near(const Vec<Dim>& /*x*/) const { return 0; }
 };
 
 }  // namespace seaway::hull

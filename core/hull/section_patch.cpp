@@ -129,6 +129,7 @@ SectionPatch::SectionPatch(const std::vector<WeightedLoop>& loops, const Box<2>&
 }
 
 SectionPatch::Seen SectionPatch::look(const Vec2& centre, double radius) const {
+  if (table_ == nullptr) return Seen::unknown;
   const double d = table_->value(centre), need = radius + table_->error_bound();
   if (d > need) return porous_ ? Seen::unknown : Seen::fluid;
   return d < -need ? Seen::solid : Seen::unknown;

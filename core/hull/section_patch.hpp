@@ -19,7 +19,7 @@ namespace seaway::hull {
 class SectionPatch final : public HullPatch<2> {
  public:
   /// `table` belongs to the walls (weight 1) among `loops` and serves to reject boxes without
-  /// walls.
+  /// walls; may be null.
   SectionPatch(const std::vector<WeightedLoop>& loops, const Box<2>& box,
                std::shared_ptr<const DistanceTable> table);
 

@@ -9,13 +9,14 @@ namespace seaway::mesh {
 
 template <int Dim>
 TankGrid<Dim> make_tank_grid(const Vec<Dim>& lower, const Vec<Dim>& upper, double base_cell,
-                             const std::array<bool, Dim>& periodic) {
+                             const std::array<bool, Dim>& periodic, double stretch_x) {
   TankGrid<Dim> grid{lower, upper, {}, periodic};
   SEAWAY_CHECK(base_cell > 0, "mesh base cell is {} m; it must be positive", base_cell);
   for (int a = 0; a < Dim; ++a) {
     const double length = upper[a] - lower[a];
     SEAWAY_CHECK(length > 0, "the tank's extent along axis {} is {} m; it must be positive", a, length);
-    const double blocks = length / (base_cell * BlockShape<Dim>::n);
+    const double cell = Dim == 3 && a == 0 ? stretch_x * base_cell : base_cell;
+    const double blocks = length / (cell * BlockShape<Dim>::n);
     int count = std::max(1, static_cast<int>(std::lround(blocks)));
     if (blocks / count > 1.12) ++count;
     grid.root_blocks[a] = count;
@@ -194,7 +195,9 @@ void Forest<Dim>::list_interfaces() {
 
 template class Forest<2>;
 template class Forest<3>;
-template TankGrid<2> make_tank_grid<2>(const Vec<2>&, const Vec<2>&, double, const std::array<bool, 2>&);
-template TankGrid<3> make_tank_grid<3>(const Vec<3>&, const Vec<3>&, double, const std::array<bool, 3>&);
+template TankGrid<2> make_tank_grid<2>(const Vec<2>&, const Vec<2>&, double, const std::array<bool, 2>&,
+                                             double);
+template TankGrid<3> make_tank_grid<3>(const Vec<3>&, const Vec<3>&, double, const std::array<bool, 3>&,
+                                             double);
 
 }  // namespace seaway::mesh

@@ -24,10 +24,11 @@ struct TankGrid {
 
 /// Root blocks so that the root cells come as close to `base_cell` as whole blocks allow, and not beyond
 /// it by more than 12 %. The cells may differ between axes by what the tank's proportions leave: choose
-/// tanks of whole multiples of 16 (3-D: 8) base cells for cells of exactly the wanted size.
+/// tanks of whole multiples of 16 (3-D: 8) base cells for cells of exactly the wanted size. 3-D: cells are
+/// `stretch_x` times as long along x, the ship's length, as across it.
 template <int Dim>
 TankGrid<Dim> make_tank_grid(const Vec<Dim>& lower, const Vec<Dim>& upper, double base_cell,
-                             const std::array<bool, Dim>& periodic);
+                             const std::array<bool, Dim>& periodic, double stretch_x = 1);
 
 /// Whether the block [lower, upper] of `level` is to be split.
 template <int Dim>
@@ -71,7 +72,11 @@ class Forest {
   int find_leaf(const Vec<Dim>& x) const;
   /// Cell edges of a level.
   Vec<Dim> cell_size(int level) const;
-  double finest_cell() const { return cell_size(n_levels() - 1).maxCoeff(); }
+  /// Edge across the ship (y, z) of the finest cells [m].
+  double finest_cell() const {
+    const Vec<Dim> h = cell_size(n_levels() - 1);
+    return h[Dim - 1] > h[Dim - 2] ? h[Dim - 1] : h[Dim - 2];
+  }
   int threads() const { return threads_; }
 
   template <class F>

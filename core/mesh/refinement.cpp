@@ -21,12 +21,12 @@ template <int Dim>
 int level_for_cell(const Vec<Dim>& base, double cell) {
   SEAWAY_CHECK(cell > 0, "a wanted cell is {} m; it must be positive", cell);
   int level = 0;
-  double h = base.maxCoeff();
+  double h = std::max(base[Dim - 2], base[Dim - 1]);
   while (h > 1.121 * cell) {
     h *= 0.5;
     ++level;
     SEAWAY_CHECK(level <= 14, "a cell of {} m is more than 14 halvings of the base cell {} m; "
-                 "use a smaller base cell", cell, base.maxCoeff());
+                 "use a smaller base cell", cell, std::max(base[Dim - 2], base[Dim - 1]));
   }
   return level;
 }

@@ -10,11 +10,11 @@ namespace seaway::mesh {
 template <int Dim>
 struct RefinedBox {
   Vec<Dim> lower, upper;  ///< [m]; may be infinite
-  double cell = 0;        ///< largest cell edge wanted inside [m]
+  double cell = 0;        ///< largest cell edge across the ship wanted inside [m]
 };
 
-/// Level whose largest cell edge is not larger than `cell` by more than 12 % (what make_tank_grid may
-/// stretch), seen from root cells `base`.
+/// Level whose largest cell edge across the ship (y, z) is not larger than `cell` by more than 12 % (what
+/// make_tank_grid may stretch), seen from root cells `base`.
 template <int Dim>
 int level_for_cell(const Vec<Dim>& base, double cell);
 

@@ -23,10 +23,10 @@ hull::SectionSpec::Shape section_shape(Hull::Shape shape) {
       return hull::SectionSpec::Shape::polygon;
     case Hull::Shape::offsets_section:
       return hull::SectionSpec::Shape::offsets;
-    case Hull::Shape::none:
+    default:
       break;
   }
-  fail(ErrorCode::internal, "a case without hull has no section");
+  fail(ErrorCode::internal, "this hull is no section");
 }
 
 }  // namespace
@@ -40,13 +40,19 @@ double actual_cell(double base_cell, double wanted) {
 double hull_cell(const Case& c, const Stage& stage) {
   if (stage.mesh.hull_cell > 0) return actual_cell(c.base_cell, stage.mesh.hull_cell);
   double wanted = c.base_cell;
-  const Vec2 at(c.body.offset.y(), 0.0);
+  const Vec3 at(c.body.offset.x(), c.body.offset.y(), 0.0);
   for (const RefinementBox& box : stage.mesh.boxes) {
-    const bool holds = (from_vec3<2>(box.lower).array() <= at.array()).all() &&
-                       (from_vec3<2>(box.upper).array() >= at.array()).all();
+    bool holds = true;
+    for (int a = 3 - c.dim; a < 3; ++a) holds = holds && box.lower[a] <= at[a] && box.upper[a] >= at[a];
     if (holds && box.cell > 0) wanted = std::min(wanted, box.cell);
   }
   return actual_cell(c.base_cell, wanted);
+}
+
+std::string file_beside_case(const std::string& name, const std::string& folder) {
+  const std::filesystem::path file(name);
+  if (file.empty() || file.is_absolute() || folder.empty()) return name;
+  return (std::filesystem::path(folder) / file).string();
 }
 
 hull::SectionSpec section_spec(const Hull& hull, const std::string& folder) {
@@ -56,10 +62,7 @@ hull::SectionSpec section_spec(const Hull& hull, const std::string& folder) {
   spec.height = hull.height;
   spec.corner_radius = hull.corner_radius;
   for (const auto& v : hull.vertices) spec.vertices.emplace_back(v[0], v[1]);
-  const std::filesystem::path file(hull.offsets_file);
-  spec.offsets_file = file.empty() || file.is_absolute() || folder.empty()
-                          ? hull.offsets_file
-                          : (std::filesystem::path(folder) / file).string();
+  spec.offsets_file = file_beside_case(hull.offsets_file, folder);
   spec.station = hull.station;
   spec.scale = hull.scale;
   spec.extend_to = hull.extend_to;
@@ -71,6 +74,29 @@ hull::SectionSpec section_spec(const Hull& hull, const std::string& folder) {
     spec.compartments.push_back(std::move(to));
   }
   return spec;
+}
+
+bool has_thin_walls(const Case& c) {
+  double coarsest = 0, thinnest = 1e300;
+  for (const Stage& stage : c.stages) coarsest = std::max(coarsest, hull_cell(c, stage));
+  for (const Compartment& compartment : c.hull.compartments)
+    thinnest = std::min(thinnest, compartment.wall_thickness);
+  for (std::size_t i = 0; i < c.hull.compartments.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Compartment &a = c.hull.compartments[i], &b = c.hull.compartments[j];
+      double gap = 0;  // between the boxes, along the axis that parts them
+      for (int axis = 3 - c.dim; axis < 3; ++axis)
+        gap = std::max({gap, a.lower[axis] - b.upper[axis], b.lower[axis] - a.upper[axis]});
+      if (gap > 1e-9) thinnest = std::min(thinnest, gap);
+    }
+  // A stretched base cell may be a little larger; the rule is about the nominal one.
+  return thinnest < cells_per_wall * coarsest * (1 - 1e-6);
+}
+
+double opening_reach(const Case& c) {
+  double coarsest = 0;
+  for (const Stage& stage : c.stages) coarsest = std::max(coarsest, hull_cell(c, stage));
+  return 2 * coarsest * std::max(1.0, c.stretch_x);
 }
 
 std::vector<bool> open_compartments(const Hull& hull) {
@@ -89,7 +115,7 @@ std::shared_ptr<const hull::SectionHull> build_section_hull(const Case& c) {
     coarsest = std::max(coarsest, cell);
   }
   return std::make_shared<hull::SectionHull>(hull::build_section(section_spec(c.hull, c.folder)),
-                                             0.5 * finest, 16 * coarsest);
+                                             0.5 * finest, 16 * coarsest, opening_reach(c));
 }
 
 double start_draft(const Case& c, const hull::Section& section) {

@@ -11,7 +11,8 @@ RunOutcome run_cascade(const Case& c, const RunOptions& options, RunObserver& ob
     if (d.severity == Diagnostic::Severity::error)
       fail(ErrorCode::invalid_argument, "{}: {}; {}", d.field, d.message, d.hint);
   }
-  return CascadeRun<2>(c, options, observer, context).run();
+  return c.dim == 2 ? CascadeRun<2>(c, options, observer, context).run()
+                    : CascadeRun<3>(c, options, observer, context).run();
 }
 
 }  // namespace seaway::sim

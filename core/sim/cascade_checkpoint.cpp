@@ -129,8 +129,8 @@ void CascadeRun<Dim>::write_checkpoint() {
   writer.add("vof", io::pack<Dim>(s.forest(), s.state().vof));
   writer.add("p", io::pack<Dim>(s.forest(), s.state().p));
   for (int axis = 0; axis < Dim; ++axis) {
-    writer.add("u" + std::to_string(axis), io::pack<Dim>(s.forest(), s.state().u, axis));
-    writer.add("w" + std::to_string(axis), io::pack<Dim>(s.forest(), s.state().w, axis));
+    writer.add(fmt::format("u{}", axis), io::pack<Dim>(s.forest(), s.state().u, axis));
+    writer.add(fmt::format("w{}", axis), io::pack<Dim>(s.forest(), s.state().w, axis));
   }
   // A stage's end sorts after the same sample inside the stage.
   const std::string path = fmt::format("{}/{}{:010d}{}.ck", options_.folder, prefix, sequence_, stage_.finished ? "e" : "a");
@@ -190,8 +190,8 @@ void CascadeRun<Dim>::restore(const std::string& path) {
   io::unpack<Dim>(*forest, reader.values("vof"), state.vof);
   io::unpack<Dim>(*forest, reader.values("p"), state.p);
   for (int axis = 0; axis < Dim; ++axis) {
-    io::unpack<Dim>(*forest, reader.values("u" + std::to_string(axis)), axis, state.u);
-    io::unpack<Dim>(*forest, reader.values("w" + std::to_string(axis)), axis, state.w);
+    io::unpack<Dim>(*forest, reader.values(fmt::format("u{}", axis)), axis, state.u);
+    io::unpack<Dim>(*forest, reader.values(fmt::format("w{}", axis)), axis, state.w);
   }
   BodyState<Dim> body;
   body.pose = pose_of<Dim>(reader.values("pose"));
@@ -225,11 +225,14 @@ void CascadeRun<Dim>::restore(const std::string& path) {
   if (!stage_.finished) observer_.on_stage_started(info());
 }
 
-template std::vector<std::string> CascadeRun<2>::checkpoints() const;
-template void CascadeRun<2>::prune_checkpoints() const;
-template void CascadeRun<2>::discard_checkpoints() const;
-template void CascadeRun<2>::write_checkpoint();
-template bool CascadeRun<2>::resume();
-template void CascadeRun<2>::restore(const std::string&);
+#define SEAWAY_INSTANTIATE(D)                                          \
+  template std::vector<std::string> CascadeRun<D>::checkpoints() const; \
+  template void CascadeRun<D>::prune_checkpoints() const;               \
+  template void CascadeRun<D>::discard_checkpoints() const;             \
+  template void CascadeRun<D>::write_checkpoint();                      \
+  template bool CascadeRun<D>::resume();                                \
+  template void CascadeRun<D>::restore(const std::string&);
+SEAWAY_INSTANTIATE(2)
+SEAWAY_INSTANTIATE(3)
 
 }  // namespace seaway::sim

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/sim/ship_snapshot.hpp"
 #include "core/sim/snapshot.hpp"
 
 namespace seaway::sim {
@@ -15,6 +16,9 @@ double seconds_since(std::chrono::steady_clock::time_point t) {
 
 /// Water this slow counts as still: the hull may be released in calm water [m/s].
 constexpr double still_velocity = 2e-3;
+
+/// Of the free surface seen from above: enough for a picture, about 0.3 MB of text.
+constexpr int plan_squares = 40000;
 
 transfer::MapOptions map_options(const Mapping& m) {
   transfer::MapOptions options;
@@ -249,12 +253,27 @@ void CascadeRun<Dim>::finish_stage() {
 
 template <int Dim>
 void CascadeRun<Dim>::snapshot() {
+  const std::string at = fmt::format("{}_{:09.4f}", stage_.index, simulation_->time());
+  const auto file = [&](const std::string& name, const char* type, const auto& write) {
+    write(options_.folder + "/" + name);
+    observer_.on_artifact(name, options_.folder + "/" + name, type);
+  };
   if constexpr (Dim == 2) {
-    const std::string name = fmt::format("section_{}_{:09.4f}.json", stage_.index, simulation_->time());
-    write_section(*simulation_, stage_.index, options_.folder + "/" + name);
-    observer_.on_artifact(name, options_.folder + "/" + name, "application/json");
-    simulation_->clock().charge("output");
+    file("section_" + at + ".json", "application/json",
+         [&](const std::string& path) { write_section(*simulation_, stage_.index, path); });
+  } else {
+    const double amidships = simulation_->body().pose.cog.x();
+    file("section_" + at + ".json", "application/json",
+         [&](const std::string& path) { write_section(*simulation_, amidships, stage_.index, path); });
+    file("plan_" + at + ".json", "application/json",
+         [&](const std::string& path) { write_plan(*simulation_, stage_.index, plan_squares, path); });
+    file("surface_" + at + ".vtp", "application/octet-stream",
+         [&](const std::string& path) { io::write_vtp(free_surface(*simulation_), path); });
+    if (model_->hull)
+      file("hull_" + at + ".vtp", "application/octet-stream",
+           [&](const std::string& path) { io::write_vtp(hull_mesh(*simulation_), path); });
   }
+  simulation_->clock().charge("output");
 }
 
 /// The flow goes on on the next stage's mesh.
@@ -341,5 +360,6 @@ void CascadeRun<Dim>::report_progress(bool force) {
 }
 
 template class CascadeRun<2>;
+template class CascadeRun<3>;
 
 }  // namespace seaway::sim

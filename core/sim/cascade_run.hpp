@@ -77,5 +77,6 @@ class CascadeRun {
 };
 
 extern template class CascadeRun<2>;
+extern template class CascadeRun<3>;
 
 }  // namespace seaway::sim

@@ -16,18 +16,17 @@ CaseReport check_case(const Case& c) {
   CaseReport report;
   Findings findings(report.diagnostics);
   CheckState state{c, findings, report};
-  if (c.dim != 2) {
-    findings.error("dimension",
-                   fmt::format("{} is not available; this version runs sections: 2", c.dim),
-                   "describe a section in the y-z plane");
+  if (c.dim != 2 && c.dim != 3) {
+    findings.error("dimension", fmt::format("{} is not allowed", c.dim),
+                   "write 2 for a section, 3 for a ship");
     return report;
   }
   check_fluids_and_tank(state);
   check_wave_and_zones(state);
   check_settings_and_outputs(state);
-  check_hull(state);
+  c.dim == 2 ? check_hull(state) : check_ship_hull(state);
   check_body(state);
-  check_floating(state);
+  c.dim == 2 ? check_floating(state) : check_ship_floating(state);
   check_stages(state);
   if (report.ok()) estimate_cost(state);
   return report;

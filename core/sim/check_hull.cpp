@@ -38,8 +38,7 @@ bool outline_numbers_ok(CheckState& s) {
       f.positive("hull.offsets_section.scale", hull.scale);
       f.not_negative("hull.offsets_section.extend_to_m", hull.extend_to);
       break;
-    case Hull::Shape::polygon:
-    case Hull::Shape::none:
+    default:
       break;
   }
   return f.n_errors() == before;
@@ -59,12 +58,13 @@ Culprit culprit_of(Hull::Shape shape) {
       return {"hull.rounded_box.corner_radius_m", "choose a smaller radius"};
     case Hull::Shape::offsets_section:
       return {"hull.offsets_section", "check the file, the station, the scale and extend_to_m"};
-    case Hull::Shape::box:
-    case Hull::Shape::none:
+    default:
       break;
   }
   return {"hull.box", "check beam and height"};
 }
+
+}  // namespace
 
 void check_compartment_use(CheckState& s) {
   for (std::size_t i = 0; i < s.c.hull.compartments.size(); ++i) {
@@ -84,8 +84,6 @@ void check_compartment_use(CheckState& s) {
           "add an opening, or flooded: false");
   }
 }
-
-}  // namespace
 
 void check_hull(CheckState& s) {
   if (!s.has_hull()) {

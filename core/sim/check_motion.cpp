@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/hull/hydrostatics.hpp"
+#include "core/motion/pose.hpp"
 #include "core/sim/build_hull.hpp"
 #include "core/sim/findings.hpp"
 
@@ -10,8 +11,8 @@ namespace seaway::sim {
 
 namespace {
 
-bool exists_in_section(Dof dof) {
-  return dof == Dof::sway || dof == Dof::heave || dof == Dof::roll;
+bool exists(const CheckState& s, Dof dof) {
+  return s.c.dim == 3 || dof == Dof::sway || dof == Dof::heave || dof == Dof::roll;
 }
 
 void check_freedoms(CheckState& s) {
@@ -20,7 +21,7 @@ void check_freedoms(CheckState& s) {
   std::set<Dof> seen;
   for (std::size_t i = 0; i < body.free.size(); ++i) {
     const std::string field = fmt::format("body.free[{}]", i);
-    if (!exists_in_section(body.free[i]))
+    if (!exists(s, body.free[i]))
       f.error(field, fmt::format("a section has no {}", to_string(body.free[i])),
               "allowed: sway, heave, roll");
     if (!seen.insert(body.free[i]).second)
@@ -31,7 +32,7 @@ void check_freedoms(CheckState& s) {
   for (std::size_t i = 0; i < body.prescribed.size(); ++i) {
     const Body::Prescribed& p = body.prescribed[i];
     const std::string field = fmt::format("body.prescribed[{}]", i);
-    if (!exists_in_section(p.dof))
+    if (!exists(s, p.dof))
       f.error(field + ".dof", fmt::format("a section has no {}", to_string(p.dof)),
               "allowed: sway, heave, roll");
     if (s.is_free(p.dof))
@@ -58,48 +59,21 @@ void check_release(CheckState& s) {
                    body.release_min_periods, 1000);
 }
 
-/// Corners of the hull at the start, in the tank.
-hull::Polygon start_outline(const CheckState& s, double draft) {
-  const Body& body = s.c.body;
-  const double c = std::cos(body.angles.x()), sn = std::sin(body.angles.x());
-  const Vec2 cog = from_vec3<2>(body.cog);
-  const Vec2 at = cog - Vec2(0, draft) + from_vec3<2>(body.offset);
-  hull::Polygon outline;
-  for (const Vec2& x : s.section->outer) {
-    const Vec2 r = x - cog;
-    outline.push_back(at + Vec2(c * r.x() - sn * r.y(), sn * r.x() + c * r.y()));
+/// What the hull takes of the tank at the start, (x, y, z).
+hull::Box<3> start_box(const CheckState& s) {
+  const HullPlace<3>& place = *s.place;
+  const auto pose = motion::make_pose<3>(
+      place.start, {s.c.body.angles.x(), s.c.body.angles.y(), s.c.body.angles.z()});
+  hull::Box<3> box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3 x;
+    for (int a = 0; a < 3; ++a)
+      x[a] = ((corner >> a) & 1) ? place.bounds.upper[a] : place.bounds.lower[a];
+    const Vec3 y = motion::to_earth<3>(pose, x - place.cog);
+    box.lower = box.lower.cwiseMin(y);
+    box.upper = box.upper.cwiseMax(y);
   }
-  return outline;
-}
-
-void check_place(CheckState& s, double draft) {
-  if (!s.tank_ok) return;
-  const hull::Box<2> box = hull::bounds_of(start_outline(s, draft));
-  const Tank& tank = s.c.tank;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double low = tank.lower[axis + 1], high = tank.upper[axis + 1];
-    if (box.lower[axis] > low && box.upper[axis] < high) continue;
-    s.findings.error(
-        axis == 0 ? "tank.y_m" : "tank.z_m",
-        fmt::format(
-            "the hull at its start reaches from {:.4g} to {:.4g} m, outside the tank: {} to "
-            "{} m",
-            box.lower[axis], box.upper[axis], low, high),
-        "enlarge the tank, or check the hull's size, draft and body.offset");
-  }
-  if (tank.periodic[1]) return;
-  const bool to_port = std::sin(s.c.wave.heading) > 0;  // the wave comes from the lower end
-  const double low =
-      tank.lower.y() + (to_port ? s.c.zones.generation_length : s.c.zones.absorption_length);
-  const double high =
-      tank.upper.y() - (to_port ? s.c.zones.absorption_length : s.c.zones.generation_length);
-  if (low < high && (box.lower.x() < low || box.upper.x() > high))
-    s.findings.error(
-        "zones",
-        fmt::format("the hull from {:.4g} to {:.4g} m stands in a zone; free of zones: "
-                    "{:.4g} to {:.4g} m",
-                    box.lower.x(), box.upper.x(), low, high),
-        "shorten the zones, lengthen the tank or move the hull (body.offset)");
+  return box;
 }
 
 void check_given_draft(CheckState& s, double capacity, double afloat) {
@@ -150,7 +124,74 @@ void fill_summary(CheckState& s, const std::vector<hull::WeightedLoop>& open, do
     s.heave_period = 2 * pi * std::sqrt(2 * area / (gravity * water.waterplane_breadth));
 }
 
+void check_section_numbers(CheckState& s) {
+  Findings& f = s.findings;
+  const Body& body = s.c.body;
+  f.positive("body.mass_kg_per_m", body.mass);
+  f.finite("body.cog.y_m", body.cog.y());
+  f.finite("body.cog.z_m", body.cog.z());
+  if (s.is_free(Dof::roll))
+    f.positive("body.gyradii.x_m", body.gyradii.x());
+  else
+    f.not_negative("body.gyradii.x_m", body.gyradii.x());
+}
+
+void check_ship_numbers(CheckState& s) {
+  Findings& f = s.findings;
+  const Body& body = s.c.body;
+  f.positive("body.mass_kg", body.mass);
+  bool positive = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    f.finite(fmt::format("body.cog.{}_m", "xyz"[axis]), body.cog[axis]);
+    positive &= f.positive(fmt::format("body.gyradii.{}_m", "xyz"[axis]), body.gyradii[axis]);
+  }
+  f.finite("body.offset.x_m", body.offset.x());
+  f.in_range("body.angles.pitch_deg", body.angles.y() / degree, -90, 90);
+  f.in_range("body.angles.yaw_deg", body.angles.z() / degree, -180, 180);
+  if (!positive) return;
+  const Vec3 k2 = body.gyradii.cwiseProduct(body.gyradii);
+  for (int axis = 0; axis < 3; ++axis)
+    if (k2[axis] > k2.sum() - k2[axis])
+      f.error(fmt::format("body.gyradii.{}_m", "xyz"[axis]),
+              fmt::format("{} m: its square exceeds the sum of the other two, which no body has",
+                          body.gyradii[axis]),
+              "check the radii of gyration; they are about the centre of gravity");
+}
+
 }  // namespace
+
+void check_place(CheckState& s) {
+  if (!s.tank_ok) return;
+  const hull::Box<3> box = start_box(s);
+  const Tank& tank = s.c.tank;
+  for (int axis = s.first_axis(); axis < 3; ++axis) {
+    const double low = tank.lower[axis], high = tank.upper[axis];
+    if (box.lower[axis] > low && box.upper[axis] < high) continue;
+    s.findings.error(
+        fmt::format("tank.{}_m", "xyz"[axis]),
+        fmt::format(
+            "the hull at its start reaches from {:.4g} to {:.4g} m, outside the tank: {} to "
+            "{} m",
+            box.lower[axis], box.upper[axis], low, high),
+        "enlarge the tank, or check the hull's size, draft and body.offset");
+  }
+  const int axis = s.wave_axis;
+  if (tank.periodic[static_cast<std::size_t>(axis)]) return;
+  // The wave comes from the lower end if it goes along the axis.
+  const double along = axis == 1 ? std::sin(s.c.wave.heading) : std::cos(s.c.wave.heading);
+  const bool upwards = along > 0;
+  const double low =
+      tank.lower[axis] + (upwards ? s.c.zones.generation_length : s.c.zones.absorption_length);
+  const double high =
+      tank.upper[axis] - (upwards ? s.c.zones.absorption_length : s.c.zones.generation_length);
+  if (low < high && (box.lower[axis] < low || box.upper[axis] > high))
+    s.findings.error(
+        "zones",
+        fmt::format("the hull from {:.4g} to {:.4g} m stands in a zone; free of zones: "
+                    "{:.4g} to {:.4g} m",
+                    box.lower[axis], box.upper[axis], low, high),
+        "shorten the zones, lengthen the tank or move the hull (body.offset)");
+}
 
 void check_body(CheckState& s) {
   Findings& f = s.findings;
@@ -161,13 +202,8 @@ void check_body(CheckState& s) {
       f.error("body", "motions are given but there is no hull", "add a hull or remove the body");
     return;
   }
-  f.positive("body.mass_kg_per_m", body.mass);
-  f.finite("body.cog.y_m", body.cog.y());
-  f.finite("body.cog.z_m", body.cog.z());
-  if (s.is_free(Dof::roll))
-    f.positive("body.gyradii.x_m", body.gyradii.x());
-  else
-    f.not_negative("body.gyradii.x_m", body.gyradii.x());
+  if (s.c.dim == 2) check_section_numbers(s);
+  else check_ship_numbers(s);
   f.not_negative("body.draft_m", body.draft);
   f.finite("body.offset.y_m", body.offset.y());
   f.finite("body.offset.z_m", body.offset.z());
@@ -194,7 +230,13 @@ void check_floating(CheckState& s) {
                     s.c.hull.compartments.empty() ? "" : " with its flooded compartments"),
         "lower the mass, enlarge the hull, or give body.draft_m to let it sink");
   }
-  if (body.draft > 0 || afloat) check_place(s, body.draft > 0 ? body.draft : *afloat);
+  if (body.draft > 0 || afloat) {
+    const double draft = body.draft > 0 ? body.draft : *afloat;
+    const hull::Box<2> box = hull::bounds_of(s.section->outer);
+    s.place = HullPlace<3>{{to_vec3<2>(box.lower), to_vec3<2>(box.upper)}, body.cog, body.cog, draft};
+    s.place->start += body.offset - Vec3(0, 0, draft);
+    check_place(s);
+  }
   if (!afloat) return;
   fill_summary(s, open, area, *afloat);
   const HydrostaticsSummary& h = s.report.hydrostatics;

@@ -1,7 +1,9 @@
 // Fluids, tank, wave, zones, settings and outputs.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string>
 
 #include "core/sim/findings.hpp"
 
@@ -10,6 +12,9 @@ namespace seaway::sim {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::max();
+constexpr const char* axis_names[3] = {"x", "y", "z"};
+
+std::string tank_field(int axis) { return fmt::format("tank.{}_m", axis_names[axis]); }
 
 void check_breaking(CheckState& s, double depth) {
   const Wave& w = s.c.wave;
@@ -33,7 +38,8 @@ void check_breaking(CheckState& s, double depth) {
 void check_wave_fits(CheckState& s) {
   const Tank& tank = s.c.tank;
   const Wave& w = s.c.wave;
-  const double tank_length = tank.upper.y() - tank.lower.y();
+  const int axis = s.wave_axis;
+  const double tank_length = tank.upper[axis] - tank.lower[axis];
   // Crests of steep waves are higher than troughs are deep, by up to a third.
   if (0.7 * w.height > tank.upper.z())
     s.findings.error("tank.z_m",
@@ -47,16 +53,16 @@ void check_wave_fits(CheckState& s) {
                      "lower the bottom of the tank");
   if (s.wave_length >
       1.05 * tank_length) {  // 5 %: the linear length is that much too short or long
-    s.findings.error("tank.y_m",
+    s.findings.error(tank_field(axis),
                      fmt::format("the tank is {:.4g} m long, the wave {:.4g} m; at least one "
                                  "wave must fit",
                                  tank_length, s.wave_length),
                      "lengthen the tank or shorten the wave");
-  } else if (tank.periodic[1]) {
+  } else if (tank.periodic[static_cast<std::size_t>(axis)]) {
     const double n = tank_length / s.wave_length;
     const double tolerance = w.length > 0 ? 1e-6 : 0.05;
     if (std::abs(n - std::round(n)) > tolerance * std::round(n))
-      s.findings.error("tank.y_m",
+      s.findings.error(tank_field(axis),
                        fmt::format("a periodic tank of {:.6g} m holds {:.4g} waves of {:.6g} m; it "
                                    "must hold a whole number",
                                    tank_length, n, s.wave_length),
@@ -72,12 +78,22 @@ void check_regular_wave(CheckState& s) {
   f.not_negative("wave.regular.period_s", w.period);
   f.not_negative("wave.regular.length_m", w.length);
   f.finite("wave.regular.phase_deg", w.phase);
-  if (f.finite("wave.regular.heading_deg", w.heading) && std::abs(std::cos(w.heading)) > 1e-6)
-    f.error("wave.regular.heading_deg",
-            fmt::format("{:.6g} degrees; a section sees waves along y only: 90 or "
-                        "-90",
-                        w.heading / degree),
-            "use 90 or -90");
+  if (f.finite("wave.regular.heading_deg", w.heading)) {
+    const bool along_y = std::abs(std::cos(w.heading)) < 1e-6;
+    const bool along_x = std::abs(std::sin(w.heading)) < 1e-6;
+    s.wave_axis = along_x ? 0 : 1;
+    if (s.c.dim == 2 && !along_y)
+      f.error("wave.regular.heading_deg",
+              fmt::format("{:.6g} degrees; a section sees waves along y only: 90 or "
+                          "-90",
+                          w.heading / degree),
+              "use 90 or -90");
+    if (s.c.dim == 3 && !along_x && !along_y)
+      f.error("wave.regular.heading_deg",
+              fmt::format("{:.6g} degrees; waves go along the tank's x or y axis in this version",
+                          w.heading / degree),
+              "use 0, 90, 180 or -90, or turn the ship by body.angles.yaw_deg");
+  }
   if (w.period > 0 && w.length > 0)
     f.error("wave.regular.period_s",
             fmt::format("period {} s and length {} m are both given; exactly one is "
@@ -104,10 +120,13 @@ void check_zones(CheckState& s) {
   f.not_negative("zones.rate_per_s", z.rate);
   if (!numbers || !s.tank_ok) return;
   const double both = z.generation_length + z.absorption_length;
-  const double tank_length = s.c.tank.upper.y() - s.c.tank.lower.y();
-  if (both > 0 && s.c.tank.periodic[1])
+  const int axis = s.wave_axis;
+  const bool periodic = s.c.tank.periodic[static_cast<std::size_t>(axis)];
+  const double tank_length = s.c.tank.upper[axis] - s.c.tank.lower[axis];
+  if (both > 0 && periodic)
     f.error("zones",
-            fmt::format("zones of {} m in a tank that is periodic in y; it has no ends", both),
+            fmt::format("zones of {} m in a tank that is periodic in {}; it has no ends", both,
+                        axis_names[axis]),
             "remove the zones or the periodicity");
   if (both >= tank_length)
     f.error(
@@ -115,7 +134,7 @@ void check_zones(CheckState& s) {
         fmt::format("generation and absorption take {:.4g} m together, the tank is {:.4g} m long",
                     both, tank_length),
         "shorten the zones or lengthen the tank");
-  if (!s.wave_ok || s.c.tank.periodic[1]) return;
+  if (!s.wave_ok || periodic) return;
   if (z.generation_length == 0)
     f.warning("zones.generation_length_m",
               "0 m: no wave comes in behind the one that the tank starts with",
@@ -143,6 +162,7 @@ void check_fluids_and_tank(CheckState& s) {
 
   const Tank& tank = s.c.tank;
   before = f.n_errors();
+  if (s.c.dim == 3) f.extent("tank.x_m", tank.lower.x(), tank.upper.x());
   f.extent("tank.y_m", tank.lower.y(), tank.upper.y());
   if (f.extent("tank.z_m", tank.lower.z(), tank.upper.z()) &&
       !(tank.lower.z() < 0 && tank.upper.z() > 0))
@@ -153,9 +173,11 @@ void check_fluids_and_tank(CheckState& s) {
   if (tank.periodic[2])
     f.error("tank.periodic", "z is periodic; gravity acts along it", "leave z out");
   s.tank_ok = f.n_errors() == before;
-  s.base_cell_ok = f.positive("mesh.base_cell_m", s.c.base_cell);
+  s.base_cell_ok = f.positive("mesh.base_cell_m", s.c.base_cell) & f.in_range("mesh.stretch_x", s.c.stretch_x, 1, 4);
   if (s.tank_ok && s.base_cell_ok) {
-    const double shortest = (tank.upper - tank.lower).tail<2>().minCoeff();
+    double shortest = tank.upper.z() - tank.lower.z();
+    for (int axis = s.first_axis(); axis < 2; ++axis)
+      shortest = std::min(shortest, tank.upper[axis] - tank.lower[axis]);
     if (s.c.base_cell > shortest) {
       s.base_cell_ok = false;
       f.error(
@@ -191,12 +213,15 @@ void check_settings_and_outputs(CheckState& s) {
     if (!names.insert(gauge.name).second)
       f.error(field + ".name", fmt::format("'{}' is used twice", gauge.name),
               "give each gauge its own name");
-    if (f.finite(field + ".y_m", gauge.y) && s.tank_ok &&
-        !(gauge.y >= s.c.tank.lower.y() && gauge.y <= s.c.tank.upper.y()))
-      f.error(field + ".y_m",
-              fmt::format("{} m is outside the tank; allowed: {} to {}", gauge.y,
-                          s.c.tank.lower.y(), s.c.tank.upper.y()),
-              "move the gauge into the tank");
+    const double place[2] = {gauge.x, gauge.y};
+    for (int axis = s.first_axis(); axis < 2; ++axis) {
+      const std::string coordinate = fmt::format("{}.{}_m", field, axis_names[axis]);
+      const double low = s.c.tank.lower[axis], high = s.c.tank.upper[axis];
+      if (f.finite(coordinate, place[axis]) && s.tank_ok && !(place[axis] >= low && place[axis] <= high))
+        f.error(coordinate,
+                fmt::format("{} m is outside the tank; allowed: {} to {}", place[axis], low, high),
+                "move the gauge into the tank");
+    }
   }
 }
 

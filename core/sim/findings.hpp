@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "core/hull/section_shape.hpp"
+#include "core/hull/ship_shape.hpp"
 #include "core/sim/case.hpp"
 #include "core/sim/check_case.hpp"
+#include "core/sim/mesh_regions.hpp"
 
 namespace seaway::sim {
 
@@ -45,11 +47,16 @@ struct CheckState {
   Findings& findings;
   CaseReport& report;
   bool tank_ok = false, fluids_ok = false, wave_ok = false, base_cell_ok = false;
+  int wave_axis = 1;                         ///< the tank's axis along which waves go
   double wave_length = 0, wave_period = 0;   ///< 0: calm water, or unknown
-  std::optional<hull::Section> section{};    ///< if the hull could be built
+  std::optional<hull::Section> section{};    ///< 2-D: if the hull could be built
+  std::optional<hull::Ship> ship{};          ///< 3-D: if the hull could be built
+  std::optional<HullPlace<3>> place{};       ///< afloat at the start; in 2-D all x are 0
   bool body_ok = false;                      ///< numbers of the body
   double roll_period = 0, heave_period = 0;  ///< rough natural periods; 0: not free or unknown
   bool is_free(Dof dof) const;
+  /// Axes of the case in (x, y, z): from 1 in a section, from 0 in a ship's case.
+  int first_axis() const { return 3 - c.dim; }
   bool has_hull() const { return c.hull.shape != Hull::Shape::none; }
 };
 
@@ -59,8 +66,13 @@ void check_fluids_and_tank(CheckState& s);       // check_tank.cpp
 void check_wave_and_zones(CheckState& s);        // check_tank.cpp
 void check_settings_and_outputs(CheckState& s);  // check_tank.cpp
 void check_hull(CheckState& s);                  // check_hull.cpp: shape, compartments
+void check_compartment_use(CheckState& s);       // check_hull.cpp: names, floods without an opening
+void check_ship_hull(CheckState& s);             // check_ship.cpp: the same in 3-D
+void check_compartment_use(CheckState& s);       // check_hull.cpp: names, floods
 void check_body(CheckState& s);                  // check_motion.cpp: numbers and freedoms
 void check_floating(CheckState& s);  // check_motion.cpp: hydrostatics, place in the tank
+void check_place(CheckState& s);     // check_motion.cpp: in the tank, clear of the zones; needs s.place
+void check_ship_floating(CheckState& s);  // check_ship.cpp
 void check_stages(CheckState& s);    // check_stages.cpp: mesh rules, ends, resolution
 void estimate_cost(CheckState& s);   // estimate_cost.cpp: cells, steps, time
 

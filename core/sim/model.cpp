@@ -1,11 +1,11 @@
 // From the case to what all stages share, and the mesh of a stage.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/error.hpp"
-#include "core/mesh/refinement.hpp"
 #include "core/sim/build_hull.hpp"
+#include "core/sim/build_ship.hpp"
+#include "core/sim/mesh_regions.hpp"
 #include "core/sim/simulation.hpp"
 
 namespace seaway::sim {
@@ -59,14 +59,15 @@ void add_natural_periods(const Case& c, const hull::Section& section, double dra
 
 template <int Dim>
 Model<Dim> make_model(const Case& c) {
-  SEAWAY_CHECK(c.dim == Dim, "dimension {} is not available here; use 2", c.dim);
+  SEAWAY_CHECK(c.dim == Dim, "a case of dimension {} was taken for one of {}", c.dim, Dim);
   SEAWAY_CHECK(!c.stages.empty(), "cascade.stages is empty; give at least one stage");
   Model<Dim> m;
   m.description = c;
   std::array<bool, Dim> periodic{};
   for (int a = 0; a < Dim; ++a)
     periodic[static_cast<std::size_t>(a)] = c.tank.periodic[static_cast<std::size_t>(a + 3 - Dim)];
-  m.grid = mesh::make_tank_grid<Dim>(from_vec3<Dim>(c.tank.lower), from_vec3<Dim>(c.tank.upper), c.base_cell, periodic);
+  m.grid = mesh::make_tank_grid<Dim>(from_vec3<Dim>(c.tank.lower), from_vec3<Dim>(c.tank.upper), c.base_cell, periodic,
+                                     c.stretch_x);
   m.fluids.rho_water = c.fluids.rho_water;
   m.fluids.rho_air = c.fluids.rho_air;
   m.fluids.nu_water = c.fluids.nu_water;
@@ -85,18 +86,30 @@ Model<Dim> make_model(const Case& c) {
     if (c.hull.shape != Hull::Shape::none) {
       const auto section = build_section_hull(c);
       m.hull = section;
-      m.body = motion::make_rigid_body<Dim>(c.body.mass, c.body.cog, c.body.gyradii);
       const double draft = start_draft(c, section->section());
       m.rest_cog = from_vec3<Dim>(c.body.cog);
       m.rest_cog[Dim - 1] -= draft;
-      m.start_pose = motion::make_pose<Dim>(m.rest_cog + from_vec3<Dim>(c.body.offset), {c.body.angles.x(), 0, 0});
-      std::vector<motion::Dof> free;
-      for (const Dof dof : c.body.free) free.push_back(static_cast<motion::Dof>(dof));
-      m.free = motion::free_dofs<Dim>(std::span<const motion::Dof>(free));
-      for (const auto& compartment : c.hull.compartments) m.compartments.push_back(compartment.name);
-      m.displacement = c.body.mass / c.fluids.rho_water;
       add_natural_periods(c, section->section(), draft, periods);
     }
+  } else if (c.hull.shape != Hull::Shape::none) {
+    const auto ship = build_surface_hull(c);
+    m.hull = ship;
+    const double draft = start_draft(c, ship->ship());
+    const NaturalPeriods natural = natural_periods(c, ship->ship(), draft);
+    periods.add(natural.heave);
+    periods.add(natural.roll);
+    m.rest_cog = c.body.cog - Vec3(0, 0, draft);
+  }
+  if (m.hull) {
+    m.body = motion::make_rigid_body<Dim>(c.body.mass, c.body.cog, c.body.gyradii);
+    const Vec3& turn = c.body.angles;
+    m.start_pose = motion::make_pose<Dim>(m.rest_cog + from_vec3<Dim>(c.body.offset), {turn.x(), turn.y(), turn.z()});
+    std::vector<motion::Dof> free;
+    for (const Dof dof : c.body.free) free.push_back(static_cast<motion::Dof>(dof));
+    m.free = motion::free_dofs<Dim>(std::span<const motion::Dof>(free));
+    for (const auto& compartment : c.hull.compartments) m.compartments.push_back(compartment.name);
+    m.displacement = c.body.mass / c.fluids.rho_water;
+    if (has_thin_walls(c)) m.walls = flow::Walls::thin;
   }
   m.period = m.wave ? m.wave->period() : periods.longest;
   m.dt = c.time.dt;
@@ -110,57 +123,60 @@ Model<Dim> make_model(const Case& c) {
   return m;
 }
 
+namespace {
+
+/// Of the blocks that overlap the box swept by the hull, those that come near the hull itself at some roll
+/// angle of the sweep. A ship fills less than half of its box; in a section the box is kept.
+mesh::RefineRule<3> refine_about_hull(const Model<3>& m, const MeshRule& rule, const mesh::RefinedBox<3>& box) {
+  const double margin = rule.hull_margin > 0 ? rule.hull_margin : 8 * rule.hull_cell;
+  const double heave = rule.hull_heave > 0 ? rule.hull_heave : 0.25 * (m.body.cog.z() - m.rest_cog.z());
+  const int n_angles = 2 * std::max(1, static_cast<int>(std::ceil(rule.hull_sweep / (4 * degree)))) + 1;
+  const double turn = 2 * rule.hull_sweep / (n_angles - 1);
+  std::vector<motion::Pose<3>> poses;
+  for (int k = 0; k < n_angles; ++k)
+    poses.push_back(motion::make_pose<3>(m.start_pose.cog, {-rule.hull_sweep + k * turn, 0, 0}));
+  const auto in_box = mesh::refine_boxes<3>(m.grid, {box});
+  return [hull = m.hull, body = m.body, poses, margin, heave, turn, in_box](const Vec3& lower, const Vec3& upper,
+                                                                          int level) {
+    if (!in_box(lower, upper, level)) return false;
+    const Vec3 middle = 0.5 * (lower + upper);
+    for (const auto& pose : poses) {
+      const Vec3 r = middle - pose.cog;
+      // What the hull can reach between two of the angles, and by heave.
+      const double between = 0.5 * turn * std::hypot(r.y(), r.z()) + heave;
+      const double reach = 0.5 * (upper - lower).norm() + margin + between;
+      if (hull->signed_distance(motion::earth_to_hull<3>(body, pose, middle)) < reach) return true;
+    }
+    return false;
+  };
+}
+
+}  // namespace
+
 template <int Dim>
 std::unique_ptr<Forest<Dim>> make_forest(const Model<Dim>& m, const MeshRule& rule, int threads) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  std::vector<mesh::RefinedBox<Dim>> boxes;
-  Vec<Dim> centre = m.start_pose.cog;
-  Vec<Dim> reach = Vec<Dim>::Zero();
-  if (m.hull) {
-    const auto bounds = m.hull->bounds();
-    // Corners of the hull's bounding box at all headings of the sweep.
-    Vec<Dim> lower = Vec<Dim>::Constant(inf), upper = Vec<Dim>::Constant(-inf);
-    for (int step = -8; step <= 8; ++step) {
-      motion::Angles angles;
-      angles.roll = rule.hull_sweep * step / 8.0;
-      const auto pose = motion::make_pose<Dim>(m.start_pose.cog, angles);
-      for (int corner = 0; corner < (1 << Dim); ++corner) {
-        Vec<Dim> x;
-        for (int a = 0; a < Dim; ++a) x[a] = ((corner >> a) & 1) ? bounds.upper[a] : bounds.lower[a];
-        const Vec<Dim> y = motion::hull_to_earth<Dim>(m.body, pose, x);
-        lower = lower.cwiseMin(y);
-        upper = upper.cwiseMax(y);
-      }
-    }
-    reach = 0.5 * (bounds.upper - bounds.lower);
-    if (rule.hull_cell > 0) {
-      const double margin = rule.hull_margin > 0 ? rule.hull_margin : 8 * rule.hull_cell;
-      const double draft = m.body.cog[Dim - 1] - m.rest_cog[Dim - 1];
-      const double heave = rule.hull_heave > 0 ? rule.hull_heave : 0.25 * draft;
-      mesh::RefinedBox<Dim> box{lower.array() - margin, upper.array() + margin, rule.hull_cell};
-      box.lower[Dim - 1] -= heave;
-      box.upper[Dim - 1] += heave;
-      boxes.push_back(box);
-    }
-  }
-  for (const SurfaceBand& band : rule.surface) {
-    mesh::RefinedBox<Dim> box{Vec<Dim>::Constant(-inf), Vec<Dim>::Constant(inf), band.cell};
-    for (int a = 0; a + 1 < Dim; ++a) {
-      if (!std::isfinite(band.within)) continue;
-      box.lower[a] = centre[a] - reach[a] - band.within;
-      box.upper[a] = centre[a] + reach[a] + band.within;
-    }
-    box.lower[Dim - 1] = -band.half_height;
-    box.upper[Dim - 1] = band.half_height;
-    boxes.push_back(box);
-  }
-  for (const RefinementBox& b : rule.boxes)
-    boxes.push_back({from_vec3<Dim>(b.lower), from_vec3<Dim>(b.upper), b.cell});
+  std::optional<HullPlace<Dim>> place;
+  if (m.hull)
+    place = HullPlace<Dim>{m.hull->bounds(), m.body.cog, m.start_pose.cog, m.body.cog[Dim - 1] - m.rest_cog[Dim - 1]};
+  auto boxes = refined_regions<Dim>(rule, place);
   const int level = boxes.empty() ? 0 : mesh::finest_level<Dim>(m.grid, boxes);
-  return std::make_unique<Forest<Dim>>(m.grid, level, mesh::refine_boxes<Dim>(m.grid, boxes), threads);
+  mesh::RefineRule<Dim> refine = mesh::refine_boxes<Dim>(m.grid, boxes);
+  if constexpr (Dim == 3) {
+    if (m.hull && rule.hull_cell > 0) {
+      const auto about_hull = refine_about_hull(m, rule, boxes.front());
+      boxes.erase(boxes.begin());
+      refine = [about_hull, others = mesh::refine_boxes<3>(m.grid, boxes)](const Vec3& lower, const Vec3& upper,
+                                                                         int at) {
+        return others(lower, upper, at) || about_hull(lower, upper, at);
+      };
+    }
+  }
+  return std::make_unique<Forest<Dim>>(m.grid, level, refine, threads);
 }
 
 template Model<2> make_model<2>(const Case&);
+template Model<3> make_model<3>(const Case&);
 template std::unique_ptr<Forest<2>> make_forest<2>(const Model<2>&, const MeshRule&, int);
+template std::unique_ptr<Forest<3>> make_forest<3>(const Model<3>&, const MeshRule&, int);
 
 }  // namespace seaway::sim

@@ -58,5 +58,6 @@ std::vector<double> Recorder<Dim>::values(const Simulation<Dim>& s, const StepRe
 }
 
 template class Recorder<2>;
+template class Recorder<3>;
 
 }  // namespace seaway::sim

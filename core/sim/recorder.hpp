@@ -26,5 +26,6 @@ class Recorder {
 };
 
 extern template class Recorder<2>;
+extern template class Recorder<3>;
 
 }  // namespace seaway::sim

@@ -6,31 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
-#include "core/flow/plic.hpp"
+#include "core/flow/plane_cut.hpp"
 #include "core/hull/section_hull.hpp"
 
 namespace seaway::sim {
-namespace {
-
-using Point = std::array<double, 2>;
-
-/// Where normal . x = d crosses the unit square: two points, or none.
-std::vector<Point> cut_unit_square(const flow::Plane<2>& plane) {
-  std::vector<Point> points;
-  const auto [a, b] = plane.normal;
-  const auto add = [&](double x, double y) {
-    if (x < -1e-12 || x > 1 + 1e-12 || y < -1e-12 || y > 1 + 1e-12) return;
-    for (const Point& p : points)
-      if (std::abs(p[0] - x) + std::abs(p[1] - y) < 1e-9) return;
-    points.push_back({x, y});
-  };
-  if (b != 0) add(0, plane.d / b), add(1, (plane.d - a) / b);
-  if (a != 0) add(plane.d / a, 0), add((plane.d - b) / a, 1);
-  if (points.size() != 2) points.clear();
-  return points;
-}
-
-}  // namespace
 
 void write_section(Simulation<2>& s, int stage, const std::string& path) {
   const auto& forest = s.forest();
@@ -51,10 +30,10 @@ void write_section(Simulation<2>& s, int stage, const std::string& path) {
       const Vec2 low = block.cell_centre(i) - 0.5 * block.h;
       if (model.hull && model.hull->signed_distance(motion::earth_to_hull<2>(model.body, s.body().pose, block.cell_centre(i))) < 0)
         continue;
-      const auto points = cut_unit_square(s.planes().plane(b, cell));
+      const auto points = flow::cut_unit_cell(s.planes().plane(b, cell));
       if (points.empty()) continue;
       nlohmann::json segment = nlohmann::json::array();
-      for (const Point& p : points) segment.push_back({low[0] + p[0] * block.h[0], low[1] + p[1] * block.h[1]});
+      for (const auto& p : points) segment.push_back({low[0] + p[0] * block.h[0], low[1] + p[1] * block.h[1]});
       surface.push_back(segment);
     }
   }

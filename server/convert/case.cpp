@@ -163,6 +163,10 @@ sim::Case to_core(const v1::Case& m) {
     check.problem("mesh.base_cell_m", "is missing", "give the edge of the coarsest cell in metres");
   else
     c.base_cell = check.number("mesh.base_cell_m", m.mesh().base_cell_m(), positive);
+  if (m.mesh().has_stretch_x()) {
+    if (c.dim == 2) check.problem("mesh.stretch_x", "x does not exist in 2-D", "remove it");
+    c.stretch_x = check.number("mesh.stretch_x", m.mesh().stretch_x(), positive);
+  }
   if (m.has_wave()) {
     if (m.wave().has_regular()) read_regular(m.wave().regular(), c.dim, c.wave, check);
     if (m.wave().kind_case() == v1::Wave::KIND_NOT_SET)

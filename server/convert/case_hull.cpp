@@ -34,12 +34,28 @@ void read_polygon(const v1::PolygonShape& m, sim::Hull& hull, Checker& check) {
     check.problem(path, "the corners enclose no area", "give the corners of a closed outline");
 }
 
+void read_length(const std::string& path, double length, int dim, sim::Hull& hull, Checker& check) {
+  if (dim == 3) hull.length = check.number(path, length, positive);
+  else if (length != 0) check.problem(path, "x does not exist in 2-D", "remove it");
+}
+
+/// What the shapes from a table have in common.
+template <class Shape>
+void read_offsets(const Shape& m, const std::string& path, sim::Hull& hull, Checker& check) {
+  if (m.file().empty() || m.file().size() > 1000)
+    check.problem(path + ".file", m.file().empty() ? "is missing" : "is too long", "name the table of half-breadths");
+  hull.offsets_file = m.file();
+  if (m.has_scale()) hull.scale = check.number(path + ".scale", m.scale(), positive);
+  if (m.has_extend_to_m()) hull.extend_to = check.number(path + ".extend_to_m", m.extend_to_m(), positive);
+}
+
 void read_shape(const v1::Hull& m, int dim, sim::Hull& hull, Checker& check) {
   switch (m.shape_case()) {
     case v1::Hull::kBox:
       hull.shape = sim::Hull::Shape::box;
       hull.beam = check.number("hull.box.beam_m", m.box().beam_m(), positive);
       hull.height = check.number("hull.box.height_m", m.box().height_m(), positive);
+      read_length("hull.box.length_m", m.box().length_m(), dim, hull, check);
       break;
     case v1::Hull::kRoundedBox:
       hull.shape = sim::Hull::Shape::rounded_box;
@@ -47,29 +63,65 @@ void read_shape(const v1::Hull& m, int dim, sim::Hull& hull, Checker& check) {
       hull.height = check.number("hull.rounded_box.height_m", m.rounded_box().height_m(), positive);
       hull.corner_radius = check.number("hull.rounded_box.corner_radius_m", m.rounded_box().corner_radius_m(),
                                         {0, 0.5 * std::max(0.0, m.rounded_box().beam_m())});
+      read_length("hull.rounded_box.length_m", m.rounded_box().length_m(), dim, hull, check);
       break;
     case v1::Hull::kPolygon:
       hull.shape = sim::Hull::Shape::polygon;
       read_polygon(m.polygon(), hull, check);
       break;
-    case v1::Hull::kOffsetsSection: {
-      const v1::OffsetsSectionShape& s = m.offsets_section();
+    case v1::Hull::kOffsetsSection:
       hull.shape = sim::Hull::Shape::offsets_section;
-      if (s.file().empty() || s.file().size() > 1000)
-        check.problem("hull.offsets_section.file", s.file().empty() ? "is missing" : "is too long",
-                      "name the table of half-breadths");
-      hull.offsets_file = s.file();
-      hull.station = check.number("hull.offsets_section.station", s.station(), any_finite);
-      if (s.has_scale()) hull.scale = check.number("hull.offsets_section.scale", s.scale(), positive);
-      if (s.has_extend_to_m())
-        hull.extend_to = check.number("hull.offsets_section.extend_to_m", s.extend_to_m(), positive);
+      read_offsets(m.offsets_section(), "hull.offsets_section", hull, check);
+      hull.station = check.number("hull.offsets_section.station", m.offsets_section().station(), any_finite);
+      break;
+    case v1::Hull::kCylinder:
+      hull.shape = sim::Hull::Shape::cylinder;
+      hull.length = check.number("hull.cylinder.length_m", m.cylinder().length_m(), positive);
+      hull.radius = check.number("hull.cylinder.radius_m", m.cylinder().radius_m(), positive);
+      break;
+    case v1::Hull::kSphere:
+      hull.shape = sim::Hull::Shape::sphere;
+      hull.radius = check.number("hull.sphere.radius_m", m.sphere().radius_m(), positive);
+      break;
+    case v1::Hull::kWigley:
+      hull.shape = sim::Hull::Shape::wigley;
+      hull.length = check.number("hull.wigley.length_m", m.wigley().length_m(), positive);
+      hull.beam = check.number("hull.wigley.beam_m", m.wigley().beam_m(), positive);
+      hull.design_draft = check.number("hull.wigley.draft_m", m.wigley().draft_m(), positive);
+      hull.height = check.number("hull.wigley.height_m", m.wigley().height_m(), positive);
+      if (hull.height < hull.design_draft)
+        check.problem("hull.wigley.height_m", fmt::format("{} m is below the draft, {} m", hull.height, hull.design_draft),
+                      "give the height of the deck above the baseline");
+      break;
+    case v1::Hull::kOffsetsHull:
+      hull.shape = sim::Hull::Shape::offsets_hull;
+      read_offsets(m.offsets_hull(), "hull.offsets_hull", hull, check);
+      hull.station = check.number("hull.offsets_hull.amidships", m.offsets_hull().amidships(), any_finite);
+      break;
+    case v1::Hull::kStl: {
+      const v1::StlShape& stl = m.stl();
+      hull.shape = sim::Hull::Shape::stl;
+      if (stl.file().empty() || stl.file().size() > 1000)
+        check.problem("hull.stl.file", stl.file().empty() ? "is missing" : "is too long", "name the STL file");
+      hull.offsets_file = stl.file();
+      if (!(stl.unit_m() > 0))
+        check.problem("hull.stl.unit_m", fmt::format("{} is not a unit", stl.unit_m()),
+                      "an STL file does not say its unit: give the metres in it, for example 0.001");
+      hull.unit = stl.unit_m();
+      if (stl.has_amidships()) hull.station = check.number("hull.stl.amidships", stl.amidships(), any_finite);
       break;
     }
     case v1::Hull::SHAPE_NOT_SET:
-      check.problem("hull", "has no shape", "give one of box, rounded_box, polygon, offsets_section");
+      check.problem("hull", "has no shape",
+                    dim == 2 ? "give one of box, rounded_box, polygon, offsets_section"
+                             : "give one of box, rounded_box, cylinder, sphere, wigley, offsets_hull, stl");
+      return;
   }
-  if (dim == 3 && m.shape_case() != v1::Hull::SHAPE_NOT_SET)
-    check.problem("hull", "this shape is a section", "use dimension 2");
+  const bool in_2d = hull.shape == sim::Hull::Shape::box || hull.shape == sim::Hull::Shape::rounded_box ||
+                     hull.shape == sim::Hull::Shape::polygon || hull.shape == sim::Hull::Shape::offsets_section;
+  const bool in_3d = hull.shape != sim::Hull::Shape::polygon && hull.shape != sim::Hull::Shape::offsets_section;
+  if (dim == 3 && !in_3d) check.problem("hull", "this shape is a section", "use dimension 2");
+  if (dim == 2 && !in_2d) check.problem("hull", "this shape is a body in space", "use dimension 3");
 }
 
 }  // namespace

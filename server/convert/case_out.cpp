@@ -32,11 +32,13 @@ void put_hull(const sim::Hull& h, int dim, v1::Hull& m) {
     case sim::Hull::Shape::box:
       m.mutable_box()->set_beam_m(h.beam);
       m.mutable_box()->set_height_m(h.height);
+      if (dim == 3) m.mutable_box()->set_length_m(h.length);
       break;
     case sim::Hull::Shape::rounded_box:
       m.mutable_rounded_box()->set_beam_m(h.beam);
       m.mutable_rounded_box()->set_height_m(h.height);
       m.mutable_rounded_box()->set_corner_radius_m(h.corner_radius);
+      if (dim == 3) m.mutable_rounded_box()->set_length_m(h.length);
       break;
     case sim::Hull::Shape::polygon:
       for (const auto& corner : h.vertices) {
@@ -51,6 +53,33 @@ void put_hull(const sim::Hull& h, int dim, v1::Hull& m) {
       s.set_station(h.station);
       s.set_scale(h.scale);
       if (h.extend_to > 0) s.set_extend_to_m(h.extend_to);
+      break;
+    }
+    case sim::Hull::Shape::cylinder:
+      m.mutable_cylinder()->set_length_m(h.length);
+      m.mutable_cylinder()->set_radius_m(h.radius);
+      break;
+    case sim::Hull::Shape::sphere: m.mutable_sphere()->set_radius_m(h.radius); break;
+    case sim::Hull::Shape::wigley:
+      m.mutable_wigley()->set_length_m(h.length);
+      m.mutable_wigley()->set_beam_m(h.beam);
+      m.mutable_wigley()->set_draft_m(h.design_draft);
+      m.mutable_wigley()->set_height_m(h.height);
+      break;
+    case sim::Hull::Shape::offsets_hull: {
+      v1::OffsetsHullShape& s = *m.mutable_offsets_hull();
+      s.set_file(h.offsets_file);
+      s.set_amidships(h.station);
+      s.set_scale(h.scale);
+      if (h.extend_to > 0) s.set_extend_to_m(h.extend_to);
+      break;
+    }
+    case sim::Hull::Shape::stl: {
+      v1::StlShape& stl = *m.mutable_stl();
+      stl.set_file(h.offsets_file);
+      stl.set_unit_m(h.unit);
+      stl.set_amidships(h.station);
+      break;
     }
   }
   for (const sim::Compartment& from : h.compartments) {
@@ -160,6 +189,7 @@ v1::Case to_proto(const sim::Case& c) {
   if (c.tank.periodic[1]) m.mutable_tank()->add_periodic(v1::AXIS_Y);
   m.mutable_tank()->set_open_top(c.tank.open_top);
   m.mutable_mesh()->set_base_cell_m(c.base_cell);
+  if (c.dim == 3) m.mutable_mesh()->set_stretch_x(c.stretch_x);
   if (c.wave.kind == sim::Wave::Kind::none) {
     m.mutable_wave()->mutable_calm();
   } else {

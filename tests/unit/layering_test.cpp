@@ -71,6 +71,7 @@ const std::vector<Restricted>& restricted_headers() {
        "protobuf messages",
        {"proto", "server", "client"}},
       {std::regex(R"(^CLI/)"), "CLI11", {"server", "client"}},
+      {std::regex(R"(^CGAL/)"), "CGAL", {"core/hull"}},
       {std::regex(R"(^(H5\w*|hdf5\w*)\.h$)"), "HDF5", {}},
   };
   return list;

@@ -249,5 +249,49 @@ void check_constants() {
 TEST(Gather, ConstantsStayConstantIn2D) { check_constants<2>(); }
 TEST(Gather, ConstantsStayConstantIn3D) { check_constants<3>(); }
 
+/// Less than the whole surroundings: what was asked for is the same, bit by bit, with noise in every field.
+template <int Dim>
+void check_neighbourhoods() {
+  const auto forest = small_forest<Dim>(0.2, 1.2, 2);
+  const auto noisy = [](const Vec<Dim>& x) { return noise<Dim>(x); };
+  CellField<double, Dim> cells(forest);
+  fill_cells<Dim>(forest, noisy, cells);
+  restrict_cells<double, Dim>(forest, cells);
+  FaceField<double, Dim> faces(forest);
+  for (int axis = 0; axis < Dim; ++axis) fill_faces<Dim>(forest, noisy, axis, faces);
+  restrict_faces<double, Dim>(forest, faces);
+  const auto wanted = [](const IVec<Dim>& i, int face_axis, Neighbourhood set) {
+    int entry = 0, power = 1;
+    for (int a = 0; a < Dim; ++a, power *= 3)
+      entry += (i[a] < 0 ? 0 : i[a] < BlockShape<Dim>::n + (a == face_axis) ? 1 : 2) * power;
+    return entry == BlockShape<Dim>::neighbours / 2 || (set >> entry & 1) != 0;
+  };
+  Scratch<double, Dim> all, part;
+  for (const int b : forest.leaves()) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      for (const Neighbourhood set : {beside<Dim>(axis), face_neighbours<Dim>(), around_axis<Dim>(axis)}) {
+        gather_cells(forest, cells, b, 2, all);
+        gather_cells(forest, cells, b, 2, part, set);
+        for_scratch<Dim>(2, -1, [&](const IVec<Dim>& i) {
+          if (wanted(i, -1, set)) {
+            EXPECT_EQ(part(i), all(i));
+          }
+        });
+        for (int face_axis = 0; face_axis < Dim; ++face_axis) {
+          gather_faces(forest, faces, face_axis, b, 2, Boundaries<Dim>{}, all);
+          gather_faces(forest, faces, face_axis, b, 2, Boundaries<Dim>{}, part, set);
+          for_scratch<Dim>(2, face_axis, [&](const IVec<Dim>& i) {
+            if (wanted(i, face_axis, set)) {
+              EXPECT_EQ(part(i), all(i));
+            }
+          });
+        }
+      }
+    }
+  }
+}
+TEST(Gather, FillsWhatANeighbourhoodNamesIn2D) { check_neighbourhoods<2>(); }
+TEST(Gather, FillsWhatANeighbourhoodNamesIn3D) { check_neighbourhoods<3>(); }
+
 }  // namespace
 }  // namespace seaway::field

@@ -62,7 +62,7 @@ void make_polygon(Case& c, std::vector<std::array<double, 2>> vertices) {
 }
 
 const Fault faults[] = {
-    {"Dimension", [](Case& c) { c.dim = 3; }, "dimension", "3"},
+    {"Dimension", [](Case& c) { c.dim = 4; }, "dimension", "4"},
     {"NegativeMass", [](Case& c) { c.body.mass = -1; }, "body.mass_kg_per_m", "-1"},
     {"NanMass", [](Case& c) { c.body.mass = nan; }, "body.mass_kg_per_m", "nan"},
     {"ZeroInertia", [](Case& c) { c.body.gyradii.x() = 0; }, "body.gyradii.x_m", "0"},
