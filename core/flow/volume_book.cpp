@@ -189,8 +189,8 @@ template <int Dim>
 void VolumeBook<Dim>::release(const HullMask<Dim>& mask, std::vector<double>& vof, double dt) {
   const HullWindow<Dim>& window = mask.window();
   const auto& theta = mask.fluid_fraction();
-  const double volume = window.cell_volume(), part = 1 - std::exp(-release_rate * dt);
   const bool thin = mask.walls() == Walls::thin;
+  const double volume = window.cell_volume(), part = 1 - std::exp(-release_rate * dt);
   struct Taker {
     std::size_t at;
     double weight;

@@ -87,6 +87,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"wave.regular.heading_deg", [](v1::Case& m) { m.mutable_wave()->mutable_regular()->set_heading_deg(180); }},
         Mistake{"hull", [](v1::Case& m) { m.mutable_hull()->clear_box(); }},
         Mistake{"hull.box.beam_m", [](v1::Case& m) { m.mutable_hull()->mutable_box()->set_beam_m(0); }},
+        Mistake{"hull.stl.unit_m", [](v1::Case& m) { m.mutable_hull()->mutable_stl()->set_file("hull.stl"); }},
+        Mistake{"hull.stl.file", [](v1::Case& m) { m.mutable_hull()->mutable_stl()->set_unit_m(0.001); }},
+        Mistake{"hull", [](v1::Case& m) { m.mutable_hull()->mutable_wigley(); }},
         Mistake{"hull.compartments[0].wall_thickness_m",
                 [](v1::Case& m) { m.mutable_hull()->mutable_compartments(0)->clear_wall_thickness_m(); }},
         Mistake{"hull.compartments[0].permeability",
@@ -134,6 +137,16 @@ TEST(ConvertCase, RefusesOpenAndFlatPolygons) {
   EXPECT_THAT(refused_fields(m), ::testing::Contains("hull.polygon.vertices"));  // no area
   add(1, 1);
   EXPECT_THAT(refused_fields(m), ::testing::Contains("hull.polygon.vertices[4]"));  // open
+}
+
+TEST(ConvertCase, ReadsAnStlHull) {
+  v1::Case m = small();
+  m.set_dimension(3);
+  auto& stl = *m.mutable_hull()->mutable_stl();
+  stl.set_file("hull.stl");
+  stl.set_unit_m(0.001);
+  stl.set_amidships(1500);
+  EXPECT_THAT(refused_fields(m), ::testing::Not(::testing::Contains(::testing::StartsWith("hull.stl"))));
 }
 
 TEST(ConvertResult, TurnsRadiansIntoDegreesAtTheEdge) {

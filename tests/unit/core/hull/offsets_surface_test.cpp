@@ -98,5 +98,29 @@ TEST(OffsetsSurface, WallSidedTableGivesABox) {
   EXPECT_THROW(offsets_surface(t, spec), Error);
 }
 
+TEST(OffsetsSurface, BadTablesHaveTheirMessage) {
+  const auto problem = [](const OffsetsTable& t) -> std::string {
+    try {
+      offsets_surface(t, {});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  OffsetsTable t = dtmb5415();
+  EXPECT_EQ(problem(t), "");
+  for (auto& y : t.stations[20].half_breadths) y.reset();
+  EXPECT_NE(problem(t).find("no half-breadths"), std::string::npos);
+  t = dtmb5415();
+  t.stations[20].half_breadths[20].reset();
+  t.stations[20].half_breadths[25].reset();
+  EXPECT_NE(problem(t).find("2 gaps"), std::string::npos);
+  t = dtmb5415();
+  t.stations[20].half_breadths[20].reset();  // a gap far from the notch
+  EXPECT_NE(problem(t).find("only one notch"), std::string::npos);
+  t.stations.clear();
+  EXPECT_NE(problem(t).find("0 stations"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace seaway::hull
