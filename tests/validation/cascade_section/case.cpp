@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "tests/validation/cascade_section/picture.hpp"
 #include "tests/validation/cascade_section/run_record.hpp"
@@ -38,12 +39,20 @@ class Workspace {
   bool keep_;
 };
 
+/// Tells one version of the example from another.
+std::string example_digest() {
+  std::ifstream file(std::string(SEAWAY_EXAMPLES) + "/dtmb5415_section_beam_waves.yaml");
+  std::stringstream text;
+  text << file.rdbuf();
+  return std::to_string(std::hash<std::string>{}(text.str()));
+}
+
 /// A run that an earlier call finished is read, not run again.
 RunRecord finished_run(const Workspace& workspace, const std::string& name, const sim::Case& c,
                        int threads, const std::function<bool(double, int)>& enough) {
   RunRecord record;
   if (load(workspace.file(name + ".json"), record)) return record;
-  record = run_and_record(c, workspace.file(name), threads, enough);
+  record = run_and_record(c, workspace.file(name), threads, enough, name + " " + example_digest());
   save(record, workspace.file(name + ".json"));
   return record;
 }

@@ -13,8 +13,11 @@ namespace {
 
 class Keeper : public sim::RunObserver {
  public:
-  Keeper(std::stop_source& stop, const std::function<bool(double, int)>& enough)
-      : stop_(stop), enough_(enough), cpu_before_(process_cpu_seconds()) {}
+  /// `file`: what was recorded is saved there with each checkpoint, and read if it is there.
+  Keeper(std::stop_source& stop, const std::function<bool(double, int)>& enough, std::string file)
+      : stop_(stop), enough_(enough), file_(std::move(file)), cpu_before_(process_cpu_seconds()) {
+    load(file_, record_);
+  }
 
   void on_channels(const std::vector<sim::Channel>& channels) override {
     const auto find = [&](const char* name) {
@@ -27,6 +30,8 @@ class Keeper : public sim::RunObserver {
     heave_ = find("heave");
   }
   void on_sample(const sim::Sample& sample) override {
+    if (first_) go_on_from(static_cast<std::size_t>(sample.sequence) - 1);
+    first_ = false;
     record_.t.push_back(sample.time);
     record_.roll.push_back(sample.values[roll_]);
     record_.heave.push_back(sample.values[heave_]);
@@ -37,15 +42,33 @@ class Keeper : public sim::RunObserver {
     record_.stages.push_back({r.info.name, r.info.cells, r.steps, r.info.time, r.end_time, r.cpu_s,
                               r.has_mapping ? r.mapping.cpu_s : 0, r.converged});
   }
+  void on_checkpoint(const std::string&, std::int64_t) override {
+    record_.total_cpu_s = process_cpu_seconds() - cpu_before_;
+    save(record_, file_);
+  }
   RunRecord finish() {
     record_.total_cpu_s = process_cpu_seconds() - cpu_before_;
     return std::move(record_);
   }
 
  private:
+  /// Keeps the first `samples`: the run goes on from the checkpoint after them, or from its start.
+  void go_on_from(std::size_t samples) {
+    if (samples > record_.t.size())
+      fail(ErrorCode::failed_precondition,
+           "{} has {} samples, the checkpoint beside it {}; remove the folder and run again", file_,
+           record_.t.size(), samples);
+    for (auto* v : {&record_.t, &record_.roll, &record_.heave, &record_.cpu_s}) v->resize(samples);
+    const double time = record_.end_time();
+    std::erase_if(record_.stages, [&](const StageRecord& s) { return s.end > time + 1e-9; });
+    if (samples > 0) cpu_before_ -= record_.cpu_s.back();
+  }
+
   std::stop_source& stop_;
   const std::function<bool(double, int)>& enough_;
+  std::string file_;
   double cpu_before_;
+  bool first_ = true;
   std::size_t roll_ = 0, heave_ = 0;
   RunRecord record_;
 };
@@ -71,16 +94,17 @@ Record RunRecord::between(const std::vector<double>& signal, double from, double
 }
 
 RunRecord run_and_record(const sim::Case& c, const std::string& folder, int threads,
-                         const std::function<bool(double, int)>& enough) {
+                         const std::function<bool(double, int)>& enough, const std::string& digest) {
   std::filesystem::create_directories(folder);
   std::stop_source stop;
   RunContext context = quiet_context(threads);
   context.stop = stop.get_token();
-  Keeper keeper(stop, enough);
+  Keeper keeper(stop, enough, folder + "/record.json");
   sim::RunOptions options;
   options.folder = folder;
-  options.resume = false;           // CPU times are those of one unbroken run
-  options.checkpoint_interval = 0;  // at stage ends, as part of the run
+  options.case_digest = digest;
+  options.resume = true;             // a run that was cut goes on; its CPU time is that of all attempts
+  options.checkpoint_interval = 60;  // seconds; a few tenths of one each
   const sim::RunOutcome outcome = sim::run_cascade(c, options, keeper, context);
   if (outcome.reason == sim::StopReason::diverged) fail(ErrorCode::diverged, "{}", outcome.message);
   return keeper.finish();

@@ -32,10 +32,11 @@ struct RunRecord {
   Record between(const std::vector<double>& signal, double from, double to) const;
 };
 
-/// Runs the case in `folder` from the start, until it ends or `enough(time, stage)` says so.
+/// Runs the case in `folder` until it ends or `enough(time, stage)` says so. If a run of the same `digest` was cut
+/// there, it goes on from its last checkpoint; CPU times are sums of all attempts up to the checkpoints.
 /// Throws Error(diverged) when it does.
 RunRecord run_and_record(const sim::Case& c, const std::string& folder, int threads,
-                         const std::function<bool(double, int)>& enough);
+                         const std::function<bool(double, int)>& enough, const std::string& digest);
 
 /// To and from a file; load returns false if there is none.
 void save(const RunRecord& record, const std::string& path);
