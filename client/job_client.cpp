@@ -8,6 +8,8 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <thread>
 
@@ -23,6 +25,8 @@ ExitCode exit_code(grpc::StatusCode code) {
     case grpc::StatusCode::OUT_OF_RANGE:
     case grpc::StatusCode::FAILED_PRECONDITION: return exit_usage;
     case grpc::StatusCode::NOT_FOUND: return exit_not_found;
+    case grpc::StatusCode::UNAUTHENTICATED:
+    case grpc::StatusCode::PERMISSION_DENIED: return exit_denied;
     case grpc::StatusCode::UNAVAILABLE:
     case grpc::StatusCode::DEADLINE_EXCEEDED: return exit_unreachable;
     default: return exit_failed;
@@ -39,15 +43,28 @@ void check(const grpc::Status& status) {
   if (!status.ok()) throw RpcError(status);
 }
 
+void authorize(grpc::ClientContext& context, const std::string& authorization) {
+  if (!authorization.empty()) context.AddMetadata("authorization", authorization);
+}
+
+std::string read_pem(const std::string& file) {
+  if (file.empty()) return {};
+  std::ifstream in(file, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  if (text.find("-----BEGIN") == text.npos) throw ClientError(exit_usage, file + " cannot be read or is no PEM file");
+  return text;
+}
+
 void set_deadline(grpc::ClientContext& context, int seconds) {
   context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(seconds));
 }
 
 /// All calls of the service can be repeated, so a connection that breaks (a restart of the server) is tried again.
 template <class Response, class Call>
-Response unary(Call call, int seconds = 10) {
+Response unary(const std::string& authorization, Call call, int seconds = 10) {
   for (int attempt = 1;; ++attempt) {
     grpc::ClientContext context;
+    authorize(context, authorization);
     set_deadline(context, seconds);
     Response response;
     const grpc::Status status = call(&context, &response);
@@ -70,7 +87,9 @@ RpcError::RpcError(const grpc::Status& status)
   }
 }
 
-JobClient::JobClient(const std::string& server) {
+namespace {
+
+std::shared_ptr<grpc::Channel> open_channel(const std::string& server, const Credentials& credentials) {
   grpc::ChannelArguments arguments;
   // As the server expects it: pings every 30 s find a vanished peer.
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
@@ -82,55 +101,124 @@ JobClient::JobClient(const std::string& server) {
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2'000);  // also the time that a connection may take
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   arguments.SetMaxReceiveMessageSize(64 << 20);
-  channel_ = grpc::CreateCustomChannel(server, grpc::InsecureChannelCredentials(), arguments);
-  jobs_ = v1::Jobs::NewStub(channel_);
-  telemetry_ = v1::Telemetry::NewStub(channel_);
-  stages_ = v1::Stages::NewStub(channel_);
-  artifacts_ = v1::Artifacts::NewStub(channel_);
-  cases_ = v1::Cases::NewStub(channel_);
+  const auto how = credentials.ca.empty()
+                       ? grpc::InsecureChannelCredentials()
+                       : grpc::SslCredentials({read_pem(credentials.ca), read_pem(credentials.key), read_pem(credentials.certificate)});
+  return grpc::CreateCustomChannel(server, how, arguments);
 }
 
+}  // namespace
+
+JobClient::JobClient(const std::string& server, const Credentials& credentials)
+    : JobClient(open_channel(server, credentials), credentials.token) {}
+
+JobClient::JobClient(std::shared_ptr<grpc::Channel> channel, std::string token)
+    : channel_(std::move(channel)),
+      jobs_(v1::Jobs::NewStub(channel_)),
+      telemetry_(v1::Telemetry::NewStub(channel_)),
+      stages_(v1::Stages::NewStub(channel_)),
+      artifacts_(v1::Artifacts::NewStub(channel_)),
+      admin_(v1::Admin::NewStub(channel_)),
+      cases_(v1::Cases::NewStub(channel_)),
+      authorization_(token.empty() ? "" : "Bearer " + token) {}
+
 v1::CreateJobResponse JobClient::create(const v1::CreateJobRequest& request) {
-  return unary<v1::CreateJobResponse>([&](auto* c, auto* r) { return jobs_->CreateJob(c, request, r); }, 60);
+  return unary<v1::CreateJobResponse>(authorization_, [&](auto* c, auto* r) { return jobs_->CreateJob(c, request, r); }, 60);
 }
 
 v1::Job JobClient::get(const std::string& name, v1::JobView view) {
   v1::GetJobRequest request;
   request.set_name(name);
   request.set_view(view);
-  return unary<v1::Job>([&](auto* c, auto* r) { return jobs_->GetJob(c, request, r); });
+  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->GetJob(c, request, r); });
 }
 
 v1::ListJobsResponse JobClient::list(const v1::ListJobsRequest& request) {
-  return unary<v1::ListJobsResponse>([&](auto* c, auto* r) { return jobs_->ListJobs(c, request, r); });
+  return unary<v1::ListJobsResponse>(authorization_, [&](auto* c, auto* r) { return jobs_->ListJobs(c, request, r); });
 }
 
 v1::Job JobClient::cancel(const std::string& name) {
   v1::CancelJobRequest request;
   request.set_name(name);
-  return unary<v1::Job>([&](auto* c, auto* r) { return jobs_->CancelJob(c, request, r); });
+  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->CancelJob(c, request, r); });
+}
+
+v1::Job JobClient::kill(const std::string& name) {
+  v1::KillJobRequest request;
+  request.set_name(name);
+  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->KillJob(c, request, r); });
+}
+
+v1::Job JobClient::hold(const std::string& name) {
+  v1::HoldJobRequest request;
+  request.set_name(name);
+  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->HoldJob(c, request, r); });
+}
+
+v1::Job JobClient::release(const std::string& name) {
+  v1::ReleaseJobRequest request;
+  request.set_name(name);
+  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->ReleaseJob(c, request, r); });
+}
+
+v1::Job JobClient::retry(const v1::RetryJobRequest& request) {
+  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->RetryJob(c, request, r); }, 60);
+}
+
+v1::Job JobClient::update(const v1::UpdateJobRequest& request) {
+  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->UpdateJob(c, request, r); });
+}
+
+v1::ServerInfo JobClient::info() {
+  return unary<v1::ServerInfo>(authorization_, [&](auto* c, auto* r) { return admin_->GetServerInfo(c, {}, r); });
+}
+
+void JobClient::set_log_level(const std::string& level) {
+  v1::SetLogLevelRequest request;
+  request.set_level(level);
+  unary<v1::SetLogLevelResponse>(authorization_, [&](auto* c, auto* r) { return admin_->SetLogLevel(c, request, r); });
+}
+
+v1::ReadEnvelopeResponse JobClient::envelope(const v1::ReadEnvelopeRequest& request) {
+  return unary<v1::ReadEnvelopeResponse>(authorization_, [&](auto* c, auto* r) { return telemetry_->ReadEnvelope(c, request, r); }, 30);
+}
+
+grpc::Status JobClient::watch_jobs(std::int64_t after, const std::function<bool(const v1::WatchJobsResponse&)>& message) {
+  v1::WatchJobsRequest request;
+  request.set_after_revision(after);
+  grpc::ClientContext context;
+  authorize(context, authorization_);
+  const auto reader = telemetry_->WatchJobs(&context, request);
+  v1::WatchJobsResponse response;
+  while (reader->Read(&response)) {
+    if (message(response)) continue;
+    context.TryCancel();
+    reader->Finish();
+    return grpc::Status::OK;
+  }
+  return reader->Finish();
 }
 
 void JobClient::erase(const std::string& name) {
   v1::DeleteJobRequest request;
   request.set_name(name);
-  unary<v1::DeleteJobResponse>([&](auto* c, auto* r) { return jobs_->DeleteJob(c, request, r); });
+  unary<v1::DeleteJobResponse>(authorization_, [&](auto* c, auto* r) { return jobs_->DeleteJob(c, request, r); });
 }
 
 v1::CaseReport JobClient::validate(const v1::ValidateCaseRequest& request) {
-  return unary<v1::CaseReport>([&](auto* c, auto* r) { return cases_->ValidateCase(c, request, r); }, 60);
+  return unary<v1::CaseReport>(authorization_, [&](auto* c, auto* r) { return cases_->ValidateCase(c, request, r); }, 60);
 }
 
 v1::ListStagesResponse JobClient::stages(const std::string& name) {
   v1::ListStagesRequest request;
   request.set_job(name);
-  return unary<v1::ListStagesResponse>([&](auto* c, auto* r) { return stages_->ListStages(c, request, r); });
+  return unary<v1::ListStagesResponse>(authorization_, [&](auto* c, auto* r) { return stages_->ListStages(c, request, r); });
 }
 
 v1::ListArtifactsResponse JobClient::artifacts(const std::string& name) {
   v1::ListArtifactsRequest request;
   request.set_job(name);
-  return unary<v1::ListArtifactsResponse>([&](auto* c, auto* r) { return artifacts_->ListArtifacts(c, request, r); });
+  return unary<v1::ListArtifactsResponse>(authorization_, [&](auto* c, auto* r) { return artifacts_->ListArtifacts(c, request, r); });
 }
 
 void JobClient::history(const std::string& name, const std::function<void(const v1::ReadSamplesResponse&)>& page) {
@@ -139,7 +227,7 @@ void JobClient::history(const std::string& name, const std::function<void(const 
   request.set_page_size(5000);
   for (;;) {
     const auto response =
-        unary<v1::ReadSamplesResponse>([&](auto* c, auto* r) { return telemetry_->ReadSamples(c, request, r); }, 30);
+        unary<v1::ReadSamplesResponse>(authorization_, [&](auto* c, auto* r) { return telemetry_->ReadSamples(c, request, r); }, 30);
     page(response);
     if (response.chunk().times_s_size() == 0) return;
     request.set_after_sequence(response.chunk().first_sequence() + response.chunk().times_s_size() - 1);
@@ -153,6 +241,7 @@ void JobClient::download(const std::string& name, const std::string& artifact,
   request.set_artifact(artifact);
   for (int failures = 0;;) {
     grpc::ClientContext context;
+    authorize(context, authorization_);
     set_deadline(context, 600);
     const auto reader = artifacts_->DownloadArtifact(&context, request);
     v1::DownloadArtifactResponse response;
@@ -174,6 +263,7 @@ grpc::Status JobClient::watch(const std::string& name, std::int64_t after,
   request.set_job(name);
   request.set_after_sequence(after);
   grpc::ClientContext context;
+  authorize(context, authorization_);
   const auto reader = telemetry_->WatchSamples(&context, request);
   v1::WatchSamplesResponse response;
   while (reader->Read(&response)) {

@@ -25,6 +25,7 @@ enum ExitCode {
   exit_cancelled = 3,    ///< the job that was watched was cancelled
   exit_unreachable = 4,  ///< the server does not answer
   exit_not_found = 5,    ///< no such job or artifact
+  exit_denied = 6,       ///< the server does not know who calls, or does not allow it
 };
 
 class ClientError : public std::runtime_error {
@@ -49,15 +50,34 @@ class RpcError : public ClientError {
   std::vector<std::pair<std::string, std::string>> violations_;
 };
 
+/// PEM files and a token; what is empty is not used.
+struct Credentials {
+  std::string ca, certificate, key, token;
+};
+
 class JobClient {
  public:
-  explicit JobClient(const std::string& server);
+  /// TLS if there is a ca. Throws ClientError for files that cannot be read.
+  explicit JobClient(const std::string& server, const Credentials& credentials = {});
+
+  /// On a channel of one's own.
+  explicit JobClient(std::shared_ptr<grpc::Channel> channel, std::string token = "");
 
   /// Repeats a submit that got no answer with the same request id, so that it makes one job.
   v1::CreateJobResponse create(const v1::CreateJobRequest& request);
   v1::Job get(const std::string& name, v1::JobView view = v1::JOB_VIEW_BASIC);
   v1::ListJobsResponse list(const v1::ListJobsRequest& request);
   v1::Job cancel(const std::string& name);
+  v1::Job kill(const std::string& name);
+  v1::Job hold(const std::string& name);
+  v1::Job release(const std::string& name);
+  v1::Job retry(const v1::RetryJobRequest& request);
+  v1::Job update(const v1::UpdateJobRequest& request);
+  v1::ServerInfo info();
+  void set_log_level(const std::string& level);
+  v1::ReadEnvelopeResponse envelope(const v1::ReadEnvelopeRequest& request);
+  /// Changes of jobs after a revision until `message` returns false or the stream ends.
+  grpc::Status watch_jobs(std::int64_t after, const std::function<bool(const v1::WatchJobsResponse&)>& message);
   void erase(const std::string& name);
   v1::CaseReport validate(const v1::ValidateCaseRequest& request);
   v1::ListStagesResponse stages(const std::string& name);
@@ -78,7 +98,9 @@ class JobClient {
   std::unique_ptr<v1::Telemetry::Stub> telemetry_;
   std::unique_ptr<v1::Stages::Stub> stages_;
   std::unique_ptr<v1::Artifacts::Stub> artifacts_;
+  std::unique_ptr<v1::Admin::Stub> admin_;
   std::unique_ptr<v1::Cases::Stub> cases_;
+  std::string authorization_;
 };
 
 /// A random UUID (version 4).

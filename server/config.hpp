@@ -16,6 +16,7 @@ struct Flags {
   std::string config_file;  ///< empty: all defaults
   std::string data_dir, listen, log_level;
   int port = -1;
+  bool processes = true;  ///< executor if the file names none
 };
 
 struct Settings {
@@ -24,11 +25,17 @@ struct Settings {
   std::string log_file;
   int commit_interval_ms = 250;
   int max_stalled_attempts = 10;
+  double keep_days = 0;  ///< 0: for ever
+  std::int64_t keep_changes = 100'000;
   jobs::PoolSettings pool;
+  bool processes = true;  ///< executor process, else thread
+  jobs::ProcessSettings worker;  ///< its `run` is for both
   jobs::QueueLimits limits;
   rpc::ServerSettings rpc;
 };
 
+/// trace, debug, info, warn, error
+bool is_log_level(const std::string& word);
 /// Throws convert::InputError or yaml::InputError with file, line, field, value and advice.
 Settings load_settings(const Flags& flags);
 

@@ -15,6 +15,7 @@
 #include "core/base/version.hpp"
 #include "proto/yaml.hpp"
 #include "server/config.hpp"
+#include "server/maintenance.hpp"
 
 namespace seaway::server {
 namespace {
@@ -64,6 +65,45 @@ std::jthread watch_the_clock(const std::shared_ptr<spdlog::logger>& log) {
   });
 }
 
+rpc::ServerFacts facts_of(const Settings& settings, const std::shared_ptr<spdlog::logger>& log) {
+  rpc::ServerFacts facts;
+  facts.executor = settings.processes ? "process" : "thread";
+  facts.workers = settings.pool.workers;
+  facts.log_level = [log] {
+    const auto name = spdlog::level::to_string_view(log->level());
+    return name == "warning" ? std::string("warn") : std::string(name.data(), name.size());
+  };
+  facts.set_log_level = [log](const std::string& level) {
+    if (!is_log_level(level)) return false;
+    log->set_level(spdlog::level::from_str(level));
+    return true;
+  };
+  return facts;
+}
+
+/// Once a minute: deletes what is older than it has to be kept.
+void keep_house(const std::stop_token& stop, const Settings& settings, jobs::Queue& queue, store::JobStore& store,
+                spdlog::logger& log) {
+  constexpr std::int64_t day = 86'400'000'000'000;
+  constexpr std::int64_t tombstone_days = 30;
+  std::mutex mutex;
+  std::condition_variable_any wake;
+  for (;;) {
+    try {
+      const auto now = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+      if (settings.keep_days > 0)
+        if (const int n = queue.expire(now - static_cast<std::int64_t>(settings.keep_days * day)); n > 0)
+          log.info("event=expired jobs={}", n);
+      store.prune(settings.keep_changes, now - tombstone_days * day);
+    } catch (const std::exception& error) {
+      log.warn("event=keep_house text=\"{}\"", error.what());
+    }
+    std::unique_lock lock(mutex);
+    wake.wait_for(lock, stop, std::chrono::minutes(1), [] { return false; });
+    if (stop.stop_requested()) return;
+  }
+}
+
 void serve(const Settings& settings, const std::string& address_file, const jobs::Solver& solver,
            const std::shared_ptr<spdlog::logger>& log) {
   jobs::Workspace workspace(settings.data_dir);
@@ -76,13 +116,21 @@ void serve(const Settings& settings, const std::string& address_file, const jobs
   for (const auto& uid : recovery.requeued) log->info("job={} event=recovered state=QUEUED", uid);
   for (const auto& uid : recovery.cancelled) log->info("job={} event=recovered state=CANCELLED", uid);
   for (const auto& uid : recovery.failed) log->warn("job={} event=recovered state=FAILED", uid);
-  jobs::WorkerPool pool(settings.pool, solver, workspace, *store, log);
+  const auto executor = settings.processes
+                            ? jobs::make_process_executor(settings.worker, workspace, *store, log)
+                            : jobs::make_thread_executor(settings.worker.run, solver, workspace, *store, log);
+  jobs::WorkerPool pool(settings.pool, *executor, workspace, *store, log);
   jobs::Queue queue(settings.limits, solver, workspace, *store, [&pool] { pool.wake(); },
-                    [&pool](const std::string& uid) { pool.request_stop(uid); });
-  rpc::Server server(settings.rpc, queue, *store);
+                    [&pool](const std::string& uid) { pool.request_stop(uid); },
+                    [&pool](const std::string& uid) { pool.request_kill(uid); });
+  rpc::ServerSettings rpc_settings = settings.rpc;
+  rpc_settings.facts = facts_of(settings, log);
+  rpc::Server server(rpc_settings, queue, *store);
+  const std::jthread keeper([&](const std::stop_token& stop) { keep_house(stop, settings, queue, *store, *log); });
   if (!address_file.empty()) write_address(address_file, server.address());
-  log->info("event=listening address={} data_dir={} workers={} threads={} version={}", server.address(),
-            settings.data_dir, settings.pool.workers, settings.pool.run.threads, code_version());
+  log->info("event=listening address={} data_dir={} executor={} workers={} threads={} version={}", server.address(),
+            settings.data_dir, settings.processes ? "process" : "thread", settings.pool.workers,
+            settings.worker.run.threads, code_version());
   const int signal = wait_for_signal();
   log->info("event=stopping signal={}", signal);
   const std::jthread clock = watch_the_clock(log);
@@ -103,7 +151,7 @@ void block_signals() {
   ::signal(SIGPIPE, SIG_IGN);
 }
 
-int run_daemon(int argc, char** argv, const jobs::Solver& solver) {
+int run_daemon(int argc, char** argv, const jobs::Solver& solver, bool processes) {
   block_signals();
   CLI::App app{"seawayd: runs simulations of ships in waves and keeps their results", "seawayd"};
   Flags flags;
@@ -115,13 +163,22 @@ int run_daemon(int argc, char** argv, const jobs::Solver& solver) {
   app.add_option("--log-level", flags.log_level, "trace, debug, info, warn, error");
   app.add_option("--address-file", address_file, "written with the address once the server listens");
   app.set_version_flag("--version", std::string(code_version()));
+  std::string backup_file;
+  app.require_subcommand(0, 1);
+  app.fallthrough();
+  CLI::App* backing_up = app.add_subcommand("backup", "copy the database to a new file, also while a server runs");
+  backing_up->add_option("FILE", backup_file, "must not exist")->required();
+  CLI::App* verifying = app.add_subcommand("verify", "read the whole database and say what is wrong with it");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
+    flags.processes = processes;
     const Settings settings = load_settings(flags);
+    if (backing_up->parsed()) return backup(settings.data_dir, backup_file);
+    if (verifying->parsed()) return verify(settings.data_dir);
     const auto log = make_log(settings);
     try {
       serve(settings, address_file, solver, log);

@@ -11,6 +11,7 @@ namespace seaway::server {
 void block_signals();
 
 /// The program. Exit codes: 0 stopped on request, 1 failed, 2 wrong configuration.
-int run_daemon(int argc, char** argv, const jobs::Solver& solver);
+/// `processes`: the executor that is used if the configuration names none.
+int run_daemon(int argc, char** argv, const jobs::Solver& solver, bool processes = true);
 
 }  // namespace seaway::server

@@ -14,6 +14,8 @@ namespace seaway::client {
 /// Options that all commands share.
 struct Common {
   std::string server = "127.0.0.1:7411";
+  Credentials credentials;
+  std::string token_file;
   bool json = false;
   std::function<int(JobClient&)> run;  ///< of the command that was chosen
 };
@@ -21,8 +23,14 @@ struct Common {
 void add_submit(CLI::App& app, Common& common);     // submit, validate
 void add_watch(CLI::App& app, Common& common);      // watch
 void add_jobs(CLI::App& app, Common& common);       // list, show, cancel, delete
+void add_job_life(CLI::App& app, Common& common);   // hold, release, kill, retry, label, note, priority, events, server
 void add_results(CLI::App& app, Common& common);    // history, stages, artifacts, download
 void add_plot(CLI::App& app, Common& common);       // plot
+
+/// First line of the file. Throws ClientError.
+std::string read_token(const std::string& file);
+/// KEY=VALUE; throws ClientError for anything else.
+std::pair<std::string, std::string> parse_label(const std::string& text);
 
 /// Follows a job to its end and prints its stages; the exit code says how it ended.
 int follow(JobClient& client, const std::string& name, std::int64_t after, bool json, double give_up_s);

@@ -22,7 +22,7 @@ std::string lower(std::string text) {
 struct ListOptions {
   int limit = 50;
   bool all = false;
-  std::vector<std::string> states;
+  std::vector<std::string> states, labels;
 };
 
 v1::Job::State parse_state(const std::string& word) {
@@ -31,7 +31,7 @@ v1::Job::State parse_state(const std::string& word) {
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   v1::Job::State state{};
   if (!v1::Job::State_Parse(name, &state) || state == v1::Job::STATE_UNSPECIFIED)
-    throw ClientError(exit_usage, "'" + word + "' is no state; write queued, running, cancelling, succeeded, failed or cancelled");
+    throw ClientError(exit_usage, "'" + word + "' is no state; write queued, held, running, cancelling, succeeded, failed or cancelled");
   return state;
 }
 
@@ -39,6 +39,7 @@ int list(JobClient& client, const ListOptions& o, bool json) {
   v1::ListJobsRequest request;
   request.set_page_size(o.all ? 1000 : std::clamp(o.limit, 1, 1000));
   for (const std::string& state : o.states) request.add_states(parse_state(state));
+  for (const std::string& label : o.labels) (*request.mutable_labels())[parse_label(label).first] = parse_label(label).second;
   v1::ListJobsResponse jobs;
   do {
     v1::ListJobsResponse page = client.list(request);
@@ -82,6 +83,10 @@ int show(JobClient& client, const std::string& name, bool with_case, bool json) 
   if (job.has_start_time()) rows.push_back({"started", time_text(job.start_time())});
   if (job.has_end_time()) rows.push_back({"ended", time_text(job.end_time())});
   if (p.stage_count() > 0) rows.push_back({"progress", progress});
+  if (job.priority() != 0) rows.push_back({"priority", std::to_string(job.priority())});
+  for (const auto& [key, value] : job.labels()) rows.push_back({"label", key + "=" + value});
+  if (!job.note().empty()) rows.push_back({"note", job.note()});
+  if (!job.base_job().empty()) rows.push_back({"repeats", job.base_job()});
   rows.push_back({"attempt", std::to_string(job.attempt())});
   rows.push_back({"samples", std::to_string(job.latest_sequence())});
   rows.push_back({"checkpoint after", std::to_string(job.checkpoint_sequence())});
@@ -119,6 +124,7 @@ void add_jobs(CLI::App& app, Common& common) {
   sub->add_option("-n,--limit", o->limit, "how many")->check(CLI::Range(1, 1000));
   sub->add_flag("--all", o->all, "all of them");
   sub->add_option("--state", o->states, "only jobs in this state; may be repeated");
+  sub->add_option("--label", o->labels, "only jobs with KEY=VALUE; may be repeated");
   sub->callback([o, &common] { common.run = [o, &common](JobClient& c) { return list(c, *o, common.json); }; });
 
   auto job = std::make_shared<std::string>("latest");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plot: roll and heave histories with the stage changes, and the free surface around the section.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -8,6 +9,7 @@
 
 #include "client/commands/commands.hpp"
 #include "client/plot/gnuplot.hpp"
+#include "client/plot/plan.hpp"
 #include "client/plot/section.hpp"
 #include "proto/json.hpp"
 
@@ -15,6 +17,9 @@ namespace seaway::client {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Instants of the free surface from above, a quarter of a wave period apart if snapshots are.
+constexpr std::size_t plans_in_a_picture = 4;
 
 struct Panel {
   int column = 0;
@@ -77,19 +82,58 @@ void plot_motions(JobClient& client, const v1::Job& job, const std::string& path
   run_gnuplot(s.str(), {{"history.dat", data}});
 }
 
-/// The last section that the run wrote; empty if there is none.
-std::string last_section(JobClient& client, const std::string& job) {
-  std::string best;
-  double best_time = -1;
+/// The last artifacts of a kind ("section", "plan"; names <kind>_<stage>_<time>.json), in order of time.
+std::vector<std::string> last_artifacts(JobClient& client, const std::string& job, const std::string& kind,
+                                        std::size_t count) {
+  std::vector<std::pair<double, std::string>> found;
   const v1::ListArtifactsResponse list = client.artifacts(job);
   for (const v1::Artifact& a : list.artifacts()) {
+    int stage = 0;
     double time = 0;
-    if (std::sscanf(a.name().c_str(), "section_%lf", &time) == 1 && a.name().ends_with(".json") && time >= best_time) {
-      best = a.name();
-      best_time = time;
-    }
+    if (std::sscanf(a.name().c_str(), (kind + "_%d_%lf").c_str(), &stage, &time) == 2 && a.name().ends_with(".json"))
+      found.emplace_back(time, a.name());
   }
-  return best;
+  std::sort(found.begin(), found.end());
+  std::vector<std::string> names;
+  for (std::size_t i = found.size() > count ? found.size() - count : 0; i < found.size(); ++i)
+    names.push_back(found[i].second);
+  return names;
+}
+
+std::string download(JobClient& client, const std::string& job, const std::string& artifact) {
+  std::string text;
+  client.download(job, artifact, [&](const std::string& piece) { text += piece; });
+  return text;
+}
+
+/// The free surface from above at a few instants, side by side: heights in colour, the ship's waterline.
+void plot_plans(const std::vector<Plan>& plans, const v1::Job& job, const std::string& path) {
+  double largest = 1;  // [mm]
+  for (const Plan& p : plans)
+    for (const double z : p.elevation_mm)
+      if (std::isfinite(z)) largest = std::max(largest, std::abs(z));
+  std::ostringstream s;
+  s << "set terminal pngcairo size " << 60 + 420 * plans.size() << ",800 font ',11'\nset output '"
+    << gnuplot_text(absolute(path)) << "'\nset datafile missing 'NaN'\nset multiplot layout 1," << plans.size()
+    << " title '" << gnuplot_text(job.title()) << "' noenhanced\nset size ratio -1\nset key off\nset cbrange ["
+    << -largest << ":" << largest
+    << "]\nset palette defined (-1 '#2166ac', 0 '#f7f7f7', 1 '#b2182b')\nset cblabel 'elevation [mm]'\n"
+    << "set xlabel 'x [m], forward'\nset ylabel 'y [m], to port'\n";
+  std::map<std::string, std::string> data;
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    const Plan& p = plans[i];
+    const std::string heights = "plan" + std::to_string(i) + ".dat", outline = "hull" + std::to_string(i) + ".dat";
+    data[heights] = to_grid(p);
+    data[outline] = to_blocks(p.waterline, true);
+    char time[32];
+    std::snprintf(time, sizeof time, "t = %.2f s", p.time_s);
+    s << "set title '" << time << "'\nset xrange [" << p.x_bounds()[0] << ":" << p.x_bounds()[1] << "]\nset yrange ["
+      << p.y_bounds()[0] << ":" << p.y_bounds()[1] << "]\nplot '" << heights << "' using 1:2:3 with image";
+    if (!data[outline].empty()) s << ", '" << outline << "' with lines lw 1.5 lc rgb 'black'";
+    s << "\n";
+  }
+  s << "unset multiplot\n";
+  run_gnuplot(s.str(), data);
 }
 
 void plot_section(const Section& section, const v1::Job& job, const std::string& path) {
@@ -135,11 +179,16 @@ int plot(JobClient& client, const std::string& name, const std::string& folder, 
   std::vector<std::string> written;
   written.push_back((fs::path(folder) / (job.uid() + "_motions.png")).string());
   plot_motions(client, job, written.back());
-  if (const std::string artifact = last_section(client, job.name()); !artifact.empty()) {
-    std::string text;
-    client.download(job.name(), artifact, [&](const std::string& piece) { text += piece; });
+  if (const auto last = last_artifacts(client, job.name(), "section", 1); !last.empty()) {
     written.push_back((fs::path(folder) / (job.uid() + "_section.png")).string());
-    plot_section(parse_section(text), job, written.back());
+    plot_section(parse_section(download(client, job.name(), last.back())), job, written.back());
+  }
+  std::vector<Plan> plans;
+  for (const std::string& artifact : last_artifacts(client, job.name(), "plan", plans_in_a_picture))
+    plans.push_back(parse_plan(download(client, job.name(), artifact)));
+  if (!plans.empty()) {
+    written.push_back((fs::path(folder) / (job.uid() + "_plan.png")).string());
+    plot_plans(plans, job, written.back());
   }
   if (json) {
     std::string list;

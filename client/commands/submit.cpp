@@ -17,6 +17,10 @@ namespace {
 struct Options {
   std::string file, request_id;
   bool watch = false, validate_only = false;
+  int priority = 0;
+  std::vector<std::string> labels;
+  std::string note;
+  bool hold = false;
 };
 
 struct CaseInput {
@@ -83,6 +87,10 @@ int submit(JobClient& client, const Options& o, bool json) {
   v1::CreateJobRequest request;
   *request.mutable_case_() = in.message;
   *request.mutable_files() = in.files;
+  request.set_priority(o.priority);
+  for (const std::string& label : o.labels) (*request.mutable_labels())[parse_label(label).first] = parse_label(label).second;
+  request.set_note(o.note);
+  request.set_start_held(o.hold);
   request.set_request_id(o.request_id.empty() ? new_request_id() : o.request_id);
   v1::CreateJobResponse response;
   try {
@@ -108,6 +116,10 @@ void add_submit(CLI::App& app, Common& common) {
   CLI::App* sub = app.add_subcommand("submit", "queue a case");
   sub->add_option("CASE", o->file, "case file (YAML)")->required();
   sub->add_flag("-w,--watch", o->watch, "follow it to its end");
+  sub->add_option("--priority", o->priority, "-100 to 100; larger ones first");
+  sub->add_option("--label", o->labels, "KEY=VALUE; may be repeated");
+  sub->add_option("--note", o->note, "for people");
+  sub->add_flag("--hold", o->hold, "let it wait for seaway release");
   sub->add_option("--request-id", o->request_id, "UUID; the same one again gives the same job");
   sub->callback([o, &common] { common.run = [o, &common](JobClient& c) { return submit(c, *o, common.json); }; });
   CLI::App* check = app.add_subcommand("validate", "diagnostics, hydrostatics and cost of a case; queues nothing");

@@ -38,6 +38,27 @@ std::string lower(std::string text) {
   return text;
 }
 
+bool is_text(const std::string& text) {
+  return std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+}
+
+bool is_label_key(const std::string& key) {
+  return !key.empty() && key.size() <= 63 && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
+  });
+}
+
+/// What a user may hang on a job.
+void check_traits(int priority, const store::Labels& labels, const std::string& note) {
+  if (priority < -100 || priority > 100) refuse("INVALID_REQUEST", "priority", std::to_string(priority) + " is not allowed", "must be -100 to 100");
+  if (labels.size() > 64) refuse("INVALID_REQUEST", "labels", std::to_string(labels.size()) + " labels", "at most 64");
+  for (const auto& [key, value] : labels) {
+    if (!is_label_key(key)) refuse("INVALID_REQUEST", "labels", "a key is malformed", "1 to 63 of a-z, 0-9, dot, _ and -");
+    if (value.size() > 255 || !is_text(value)) refuse("INVALID_REQUEST", "labels." + key, "is too long or no text", "at most 255 bytes of text in one line");
+  }
+  if (note.size() > 4000) refuse("INVALID_REQUEST", "note", std::to_string(note.size()) + " bytes", "at most 4000");
+}
+
 /// The known job if it was made from the same case.
 Submitted same_job(store::Job job, const std::string& spec, const std::string& digest) {
   if (job.digest != digest) {
@@ -58,7 +79,7 @@ Submitted same_job(store::Job job, const std::string& spec, const std::string& d
 
 std::string new_uid() {
   static constexpr std::string_view letters = "abcdefghijkmnpqrstuvwxyz23456789";  // 32, none alike
-  std::random_device random;
+  static thread_local std::random_device random;  // opening it costs more than the letters
   std::string uid;
   for (int i = 0; i < 10; ++i) uid += letters[random() % letters.size()];
   return uid;
@@ -71,9 +92,10 @@ bool is_uid(const std::string& text) {
 }
 
 Queue::Queue(QueueLimits limits, Solver solver, const Workspace& workspace, store::JobStore& store,
-             std::function<void()> wake, std::function<void(const std::string&)> stop)
+             std::function<void()> wake, std::function<void(const std::string&)> stop, std::function<void(const std::string&)> kill,
+             std::function<std::string()> make_uid)
     : limits_(limits), solver_(std::move(solver)), workspace_(workspace), store_(store), wake_(std::move(wake)),
-      stop_(std::move(stop)) {}
+      stop_(std::move(stop)), kill_(std::move(kill)), make_uid_(std::move(make_uid)) {}
 
 Submitted Queue::submit(const v1::CreateJobRequest& request) {
   if (!request.has_case_()) refuse("INVALID_REQUEST", "case", "is missing", "send the case to run");
@@ -81,6 +103,7 @@ Submitted Queue::submit(const v1::CreateJobRequest& request) {
   if (!request.validate_only() && !is_uuid(request.request_id()))
     refuse("INVALID_REQUEST", "request_id", request.request_id().empty() ? "is missing" : "is not a UUID",
            "make a new UUID for each submit and send the same one again after a lost answer");
+  check_traits(request.priority(), {request.labels().begin(), request.labels().end()}, request.note());
   Checked checked = check_case(request.case_(), request.files(), workspace_, solver_);
   out.report = std::move(checked.report);
   if (request.validate_only()) return out;
@@ -97,12 +120,16 @@ Submitted Queue::submit(const v1::CreateJobRequest& request) {
     fail(ErrorCode::resource_exhausted, "the case needs about {:.0f} CPU seconds, allowed are {:.0f}; use larger cells or fewer periods",
          cpu_s, limits_.job_cpu_s);
   store::NewJob job;
-  job.uid = new_uid();
+  job.uid = make_uid_();
   job.request_id = lower(request.request_id());
   job.title = request.case_().title();
   job.spec = encode_spec(request.case_(), request.files());
   job.digest = sha256_hex(job.spec);
   job.code_version = code_version();
+  job.priority = request.priority();
+  job.labels = {request.labels().begin(), request.labels().end()};
+  job.note = request.note();
+  job.held = request.start_held();
   store::Created created = store_.create_limited(job, limits_.queued_jobs);
   if (created.existed) {
     Submitted known = same_job(std::move(created.job), job.spec, job.digest);
@@ -142,6 +169,78 @@ store::Job Queue::cancel(const std::string& uid) {
              store::to_string(job->state));
     }
   }
+}
+
+store::Job Queue::kill(const std::string& uid) {
+  store::Job job = cancel(uid);  // a worker that was asked to stop is killed all the same
+  if (job.state == State::cancelling) kill_(uid);
+  return job;
+}
+
+store::Job Queue::hold(const std::string& uid) {
+  return shift(uid, State::queued, State::held, "held: only waiting jobs can be");
+}
+
+store::Job Queue::release(const std::string& uid) {
+  store::Job job = shift(uid, State::held, State::queued, "released: only held jobs can be");
+  wake_();
+  return job;
+}
+
+store::Job Queue::shift(const std::string& uid, State from, State to, const std::string& what) {
+  for (;;) {
+    if (auto moved = store_.move(uid, from, to, Reason::user, "")) return *moved;
+    const auto job = store_.find(uid);
+    if (!job) fail(ErrorCode::not_found, "job {} does not exist", uid);
+    if (job->state == to) return *job;
+    if (job->state != from) fail(ErrorCode::failed_precondition, "job {} is {} and cannot be {}", uid, store::to_string(job->state), what);
+  }
+}
+
+store::Job Queue::update(const std::string& uid, const store::JobUpdate& update) {
+  check_traits(update.priority.value_or(0), update.labels.value_or(store::Labels{}), update.note.value_or(""));
+  return store_.update(uid, update);
+}
+
+store::Job Queue::retry(const std::string& uid, const std::string& request_id, RetryFrom from) {
+  if (!is_uuid(request_id)) refuse("INVALID_REQUEST", "request_id", "is no UUID", "make a new UUID for each retry");
+  const auto base = store_.find(uid);
+  if (!base) fail(ErrorCode::not_found, "job {} does not exist", uid);
+  if (!store::is_terminal(base->state)) fail(ErrorCode::failed_precondition, "job {} has not ended; cancel it first", uid);
+  std::optional<store::Checkpoint> checkpoint;
+  if (from != RetryFrom::start) checkpoint = workspace_.newest_checkpoint(store_.checkpoints(uid));
+  if (!checkpoint && from == RetryFrom::checkpoint)
+    fail(ErrorCode::failed_precondition, "job {} has no checkpoint; retry it from the start", uid);
+  store::NewJob job;
+  job.uid = make_uid_();
+  job.request_id = lower(request_id);
+  job.title = base->title;
+  job.spec = base->spec;
+  job.digest = base->digest;
+  job.code_version = code_version();
+  job.priority = base->priority;
+  job.labels = base->labels;
+  job.note = base->note;
+  job.base_uid = uid;
+  job.held = checkpoint.has_value();  // until its files are there
+  store::Created created = store_.create_limited(job, limits_.queued_jobs);
+  if (created.existed && created.job.base_uid != uid)
+    refuse("REQUEST_ID_REUSED", "request_id", "is in use by job " + created.job.uid, "use a new one");
+  store::Job out = std::move(created.job);
+  // Also when a crash came between: the same request goes on where that one ended.
+  if (checkpoint && out.state == State::held && out.last_sequence == 0 && out.attempt == 0)
+    out = store_.adopt_history(out.uid, uid, workspace_.copy_checkpoint(*checkpoint, out.uid));
+  wake_();
+  return out;
+}
+
+int Queue::expire(std::int64_t ended_before_ns) {
+  int n = 0;
+  for (const std::string& uid : store_.ended_before(ended_before_ns, 100)) {
+    erase(uid);
+    ++n;
+  }
+  return n;
 }
 
 void Queue::erase(const std::string& uid) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What clients may do to jobs: submit, cancel, delete. The order itself lives in the store. Safe from any
+// What clients may do to jobs: submit, hold, cancel, retry, delete ... The order itself lives in the store. Safe from any
 // thread; every function may block on the disk.
 #pragma once
 
@@ -22,11 +22,19 @@ struct Submitted {
   v1::CaseReport report;
 };
 
+/// Ten random letters and digits.
+std::string new_uid();
+bool is_uid(const std::string& text);
+
+/// `any`: from the last checkpoint if there is one.
+enum class RetryFrom { any, start, checkpoint };
+
 class Queue {
  public:
-  /// `wake`: a job was queued. `stop`: a running job shall end.
+  /// `wake`: a job was queued. `stop`: a running job shall end after a checkpoint; `kill`: at once.
   Queue(QueueLimits limits, Solver solver, const Workspace& workspace, store::JobStore& store,
-        std::function<void()> wake, std::function<void(const std::string& uid)> stop);
+        std::function<void()> wake, std::function<void(const std::string& uid)> stop,
+        std::function<void(const std::string& uid)> kill, std::function<std::string()> make_uid = new_uid);
 
   /// Durable when it returns. Throws convert::InputError for a wrong case, a malformed request id, or a known
   /// one with another case (naming the fields); resource_exhausted when a limit is reached.
@@ -34,8 +42,19 @@ class Queue {
   v1::CaseReport validate(const v1::Case& message, const Files& files) const;
   /// Throws not_found, and failed_precondition if the job has ended otherwise.
   store::Job cancel(const std::string& uid);
+  /// As cancel(), without a checkpoint if it runs.
+  store::Job kill(const std::string& uid);
+  /// Throw not_found, and failed_precondition in other states than queued and held.
+  store::Job hold(const std::string& uid);
+  store::Job release(const std::string& uid);
+  /// Throws not_found, and InputError for malformed labels and the like.
+  store::Job update(const std::string& uid, const store::JobUpdate& update);
+  /// A new job from one that has ended. Throws not_found, InputError (request id), failed_precondition.
+  store::Job retry(const std::string& uid, const std::string& request_id, RetryFrom from);
   /// Throws not_found, and failed_precondition if the job has not ended.
   void erase(const std::string& uid);
+  /// Erases jobs that ended before this time, at most a hundred; how many.
+  int expire(std::int64_t ended_before_ns);
 
  private:
   const QueueLimits limits_;
@@ -43,11 +62,9 @@ class Queue {
   const Workspace& workspace_;
   store::JobStore& store_;
   const std::function<void()> wake_;
-  const std::function<void(const std::string&)> stop_;
+  store::Job shift(const std::string& uid, store::State from, store::State to, const std::string& what);
+  const std::function<void(const std::string&)> stop_, kill_;
+  const std::function<std::string()> make_uid_;
 };
-
-/// Ten random letters and digits.
-std::string new_uid();
-bool is_uid(const std::string& text);
 
 }  // namespace seaway::jobs

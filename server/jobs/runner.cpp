@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "server/jobs/runner.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <new>
 
 #include "core/base/error.hpp"
@@ -15,13 +17,20 @@ store::Reason reason_of(ErrorCode code) {
     case ErrorCode::invalid_argument:
     case ErrorCode::not_found:
     case ErrorCode::failed_precondition: return store::Reason::invalid_input;
-    case ErrorCode::unavailable: return store::Reason::disk_full;
+    case ErrorCode::unavailable: return store::Reason::disk_full;  // see failure()
     case ErrorCode::resource_exhausted: return store::Reason::memory;
     case ErrorCode::data_loss: return store::Reason::checkpoint_lost;
     case ErrorCode::diverged: return store::Reason::diverged;
     case ErrorCode::internal: return store::Reason::internal;
   }
   return store::Reason::internal;
+}
+
+/// A full disk is nobody's fault: another attempt goes on once there is space.
+RunResult failure(const Error& error) {
+  if (error.code() == ErrorCode::unavailable || says_no_space(error.what()))
+    return {RunResult::End::fault, store::Reason::disk_full, error.what()};
+  return {RunResult::End::failed, reason_of(error.code()), error.what()};
 }
 
 RunResult to_result(const sim::RunOutcome& outcome) {
@@ -35,9 +44,55 @@ RunResult to_result(const sim::RunOutcome& outcome) {
 
 }  // namespace
 
+bool says_no_space(std::string_view message) {
+  return message.find(std::strerror(ENOSPC)) != message.npos || message.find(std::strerror(EDQUOT)) != message.npos;
+}
+
+RunResult guarded(const std::function<sim::RunOutcome()>& run) {
+  try {
+    return to_result(run());
+  } catch (const Error& error) {
+    return failure(error);
+  } catch (const std::bad_alloc&) {
+    return {RunResult::End::failed, store::Reason::memory, "out of memory; use larger cells or a machine with more"};
+  } catch (const std::exception& error) {
+    return {RunResult::End::failed, store::Reason::internal, error.what()};
+  }
+}
+
+std::optional<store::Job> end_attempt(store::JobStore& store, const std::string& uid, const RunResult& result,
+                                      int max_faults) {
+  using store::Reason;
+  using store::State;
+  const auto first = [&](auto... moves) {
+    std::optional<store::Job> out;
+    ((out = store.move(uid, moves.from, moves.to, moves.reason, moves.message)) || ...);
+    return out;
+  };
+  struct Move {
+    State from, to;
+    Reason reason;
+    std::string message;
+  };
+  switch (result.end) {
+    case RunResult::End::finished:
+      return first(Move{State::running, State::succeeded, Reason::none, result.message},
+                   Move{State::cancelling, State::succeeded, Reason::none, "the run had ended before it was cancelled"});
+    case RunResult::End::stopped:
+      // A cancelled job is CANCELLING before its run is asked to stop, so RUNNING here means a drain.
+      return first(Move{State::cancelling, State::cancelled, Reason::user, result.message},
+                   Move{State::running, State::queued, Reason::server_drain, result.message});
+    case RunResult::End::failed:
+      return first(Move{State::running, State::failed, result.reason, result.message},
+                   Move{State::cancelling, State::failed, result.reason, result.message});
+    case RunResult::End::fault: return store.end_by_fault(uid, result.reason, result.message, max_faults);
+  }
+  return std::nullopt;
+}
+
 RunResult run_job(const store::Job& job, const Solver& solver, const Workspace& workspace, store::JobStore& store,
                   const RunSettings& settings, std::stop_token stop, std::shared_ptr<spdlog::logger> log) {
-  try {
+  return guarded([&] {
     const v1::CreateJobRequest spec = decode_spec(job.spec);
     const sim::Case core = bind_case(spec.case_(), spec.files(), workspace);
     const std::string folder = workspace.run_folder(job.uid);
@@ -48,22 +103,15 @@ RunResult run_job(const store::Job& job, const Solver& solver, const Workspace& 
     options.folder = folder;
     options.checkpoint_interval = settings.checkpoint_interval_s;
     options.case_digest = job.digest;
-    RunResult result;
     try {
-      result = to_result(solver.run(core, options, observer, RunContext{log, std::move(stop), settings.threads}));
+      const sim::RunOutcome outcome = solver.run(core, options, observer, RunContext{log, std::move(stop), settings.threads});
+      observer.finish();
+      return outcome;
     } catch (...) {
       observer.finish();
       throw;
     }
-    observer.finish();
-    return result;
-  } catch (const Error& error) {
-    return {RunResult::End::failed, reason_of(error.code()), error.what()};
-  } catch (const std::bad_alloc&) {
-    return {RunResult::End::failed, store::Reason::memory, "out of memory; use larger cells or a machine with more"};
-  } catch (const std::exception& error) {
-    return {RunResult::End::failed, store::Reason::internal, error.what()};
-  }
+  });
 }
 
 }  // namespace seaway::jobs

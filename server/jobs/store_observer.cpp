@@ -40,11 +40,18 @@ void StoreObserver::on_channels(const std::vector<sim::Channel>& channels) {
   store_.set_channels(uid_, std::move(rows));
 }
 
-void StoreObserver::on_stage_started(const sim::StageInfo& info) {
-  store_.put_stage(uid_, {info.stage, convert::to_proto(info).SerializeAsString()});
-  log_->info("job={} stage={} name={} event=stage_started cells={} levels={} h={} dt={}", uid_, info.stage, info.name,
-             info.cells, info.levels, info.finest_cell, info.dt);
+void StoreObserver::put_stage(const v1::StageReport& r) {
+  if (r.finished()) send_progress();
+  store_.put_stage(uid_, {r.stage(), r.SerializeAsString()});
+  if (r.finished())
+    log_->info("job={} stage={} event=stage_finished steps={} cpu_s={:.2f} converged={}", uid_, r.stage(), r.step_count(),
+               r.cpu_s(), r.converged());
+  else
+    log_->info("job={} stage={} name={} event=stage_started cells={} levels={} h={} dt={}", uid_, r.stage(), r.name(),
+               r.cell_count(), r.level_count(), r.finest_cell_m(), r.dt_s());
 }
+
+void StoreObserver::on_stage_started(const sim::StageInfo& info) { put_stage(convert::to_proto(info)); }
 
 void StoreObserver::on_sample(const sim::Sample& s) {
   if (s.sequence > next_)
@@ -61,24 +68,29 @@ void StoreObserver::on_progress(const sim::Progress& progress) {
   if (turned || Clock::now() - progress_sent_ >= progress_interval) send_progress();
 }
 
-void StoreObserver::on_stage_finished(const sim::StageResult& result) {
-  send_progress();
-  store_.put_stage(uid_, {result.info.stage, convert::to_proto(result).SerializeAsString()});
-  log_->info("job={} stage={} event=stage_finished steps={} cpu_s={:.2f} converged={}", uid_, result.info.stage,
-             result.steps, result.cpu_s, result.converged);
-}
+void StoreObserver::on_stage_finished(const sim::StageResult& result) { put_stage(convert::to_proto(result)); }
 
 void StoreObserver::on_checkpoint(const std::string& path, std::int64_t sequence) {
-  store_.add_checkpoint(uid_, describe_checkpoint(path, sequence));
-  log_->debug("job={} event=checkpoint sequence={}", uid_, sequence);
+  put_checkpoint(describe_checkpoint(path, sequence));
+}
+
+void StoreObserver::put_checkpoint(const store::Checkpoint& checkpoint) {
+  if (!is_in_folder(checkpoint.path) || checkpoint.sequence >= next_)
+    fail(ErrorCode::internal, "checkpoint {} after sample {} is not one of this run", checkpoint.path, checkpoint.sequence);
+  store_.add_checkpoint(uid_, checkpoint);
+  log_->debug("job={} event=checkpoint sequence={}", uid_, checkpoint.sequence);
+}
+
+bool StoreObserver::is_in_folder(const std::string& absolute) const {
+  const fs::path relative = fs::path(absolute).lexically_normal().lexically_relative(folder_);
+  return !relative.empty() && *relative.begin() != ".." && *relative.begin() != ".";
 }
 
 void StoreObserver::on_artifact(const std::string& name, const std::string& path, const std::string& media_type) {
   const fs::path absolute = fs::absolute(path).lexically_normal();
-  const fs::path relative = absolute.lexically_relative(folder_);
   std::error_code error;
   const auto size = fs::file_size(absolute, error);
-  if (!is_plain_name(name) || relative.empty() || *relative.begin() == ".." || error)
+  if (!is_plain_name(name) || !is_in_folder(absolute.string()) || error)
     fail(ErrorCode::internal, "artifact '{}' at {} is not a file of this run", name, path);
   store_.add_artifact(uid_, {name, absolute.string(), media_type, static_cast<std::int64_t>(size), 0});
 }

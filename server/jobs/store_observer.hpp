@@ -11,6 +11,7 @@
 #include <spdlog/logger.h>
 
 #include "core/sim/run_observer.hpp"
+#include "seaway/v1/result.pb.h"
 #include "server/store/job_store.hpp"
 
 namespace seaway::jobs {
@@ -30,12 +31,17 @@ class StoreObserver final : public sim::RunObserver {
   void on_checkpoint(const std::string& path, std::int64_t sequence) override;
   void on_artifact(const std::string& name, const std::string& path, const std::string& media_type) override;
   void on_event(const std::string& kind, const std::string& text) override;
+  /// What the functions above come to, for a run in another process.
+  void put_stage(const v1::StageReport& report);
+  /// Throws Error(internal) if the file is not one of this run.
+  void put_checkpoint(const store::Checkpoint& checkpoint);
   /// Sends the last progress.
   void finish();
 
  private:
   using Clock = std::chrono::steady_clock;
   void send_progress();
+  bool is_in_folder(const std::string& absolute) const;
 
   const std::string uid_, folder_;
   store::JobStore& store_;

@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <limits>
+
 #include "core/base/error.hpp"
 
 namespace seaway::jobs {
@@ -11,9 +13,9 @@ namespace seaway::jobs {
 using store::Reason;
 using store::State;
 
-WorkerPool::WorkerPool(PoolSettings settings, Solver solver, const Workspace& workspace, store::JobStore& store,
+WorkerPool::WorkerPool(PoolSettings settings, Executor& executor, const Workspace& workspace, store::JobStore& store,
                        std::shared_ptr<spdlog::logger> log)
-    : settings_(settings), solver_(std::move(solver)), workspace_(workspace), store_(store), log_(std::move(log)) {
+    : settings_(settings), executor_(executor), workspace_(workspace), store_(store), log_(std::move(log)) {
   for (int i = 0; i < settings_.workers; ++i) threads_.emplace_back([this] { work(); });
 }
 
@@ -29,14 +31,19 @@ void WorkerPool::wake() {
 
 void WorkerPool::request_stop(const std::string& uid) {
   const std::lock_guard lock(mutex_);
-  if (const auto run = running_.find(uid); run != running_.end()) run->second.request_stop();
+  if (const auto run = running_.find(uid); run != running_.end()) run->second.stop.request_stop();
+}
+
+void WorkerPool::request_kill(const std::string& uid) {
+  const std::lock_guard lock(mutex_);
+  if (const auto run = running_.find(uid); run != running_.end()) run->second.kill.request_stop();
 }
 
 void WorkerPool::drain() {
   {
     const std::lock_guard lock(mutex_);
     draining_ = true;
-    for (auto& [uid, stop] : running_) stop.request_stop();
+    for (auto& [uid, run] : running_) run.stop.request_stop();
   }
   wake_.notify_all();
   threads_.clear();  // joins
@@ -67,16 +74,16 @@ void WorkerPool::work() {
 }
 
 void WorkerPool::run_one(const store::Job& job) {
-  std::stop_source stop;
+  Running run;
   {
     const std::lock_guard lock(mutex_);
-    running_[job.uid] = stop;
-    if (draining_) stop.request_stop();
+    running_[job.uid] = run;
+    if (draining_) run.stop.request_stop();
   }
   // A cancellation between take_next() and here has found nobody to tell.
-  if (const auto now = store_.find(job.uid); now && now->state == State::cancelling) stop.request_stop();
+  if (const auto now = store_.find(job.uid); now && now->state == State::cancelling) run.stop.request_stop();
   log_->info("job={} event=started attempt={} after_sequence={}", job.uid, job.attempt, job.last_sequence);
-  const RunResult result = run_job(job, solver_, workspace_, store_, settings_.run, stop.get_token(), log_);
+  const RunResult result = executor_.run(job, {run.stop.get_token(), run.kill.get_token()});
   {
     const std::lock_guard lock(mutex_);
     running_.erase(job.uid);
@@ -99,26 +106,31 @@ void WorkerPool::end_job(const std::string& uid, const RunResult& result) {
 }
 
 bool WorkerPool::try_end(const std::string& uid, const RunResult& result) {
-  const auto move = [&](State from, State to, Reason reason, const std::string& message) {
-    const auto moved = store_.move(uid, from, to, reason, message);
-    if (moved)
-      log_->info("job={} event=ended state={} reason={} samples={} text=\"{}\"", uid, store::to_string(to),
-                 store::to_string(reason), moved->last_sequence, message);
-    return moved.has_value();
-  };
-  switch (result.end) {
-    case RunResult::End::finished:
-      return move(State::running, State::succeeded, Reason::none, result.message) ||
-             move(State::cancelling, State::succeeded, Reason::none, "the run had ended before it was cancelled");
-    case RunResult::End::stopped:
-      // A cancelled job is CANCELLING before its run is asked to stop, so RUNNING here means a drain.
-      return move(State::cancelling, State::cancelled, Reason::user, "") ||
-             move(State::running, State::queued, Reason::server_drain, "");
-    case RunResult::End::failed:
-      return move(State::running, State::failed, result.reason, result.message) ||
-             move(State::cancelling, State::failed, result.reason, result.message);
+  const bool fault = result.end == RunResult::End::fault;
+  const bool full = fault && result.reason == Reason::disk_full && !workspace_.has_space();
+  // A full disk does not count: the job waits for space as long as it takes.
+  const auto job = end_attempt(store_, uid, result, full ? std::numeric_limits<int>::max() : settings_.max_faults);
+  if (!job) return false;
+  log_->log(fault ? spdlog::level::warn : spdlog::level::info,
+            "job={} event={} state={} reason={} faults={} samples={} text=\"{}\"", uid, fault ? "fault" : "ended",
+            store::to_string(job->state), store::to_string(job->reason), job->faults, job->last_sequence, job->message);
+  if (full) wait_for_space();
+  if (job->state == State::queued) wake();
+  return true;
+}
+
+void WorkerPool::wait_for_space() {
+  log_->warn("event=paused text=\"the disk is full; jobs go on when there is space\"");
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    if (wake_.wait_for(lock, std::chrono::milliseconds(500), [&] { return draining_; })) return;
+    lock.unlock();
+    const bool space = workspace_.has_space();
+    lock.lock();
+    if (space) break;
   }
-  return false;
+  lock.unlock();
+  log_->info("event=resumed text=\"the disk has space again\"");
 }
 
 }  // namespace seaway::jobs

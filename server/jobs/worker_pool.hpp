@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The threads that run jobs, oldest first. Later executors (a process per job, a cluster) take the place
-// of run_job() inside; the moves of a job stay here. Safe from any thread.
+// The threads that run jobs, oldest first: each takes a job, lets the executor run an attempt, and moves the job
+// by what came of it. Safe from any thread.
 #pragma once
 
 #include <condition_variable>
@@ -12,18 +12,19 @@
 #include <thread>
 #include <vector>
 
-#include "server/jobs/runner.hpp"
+#include "server/jobs/executor.hpp"
 
 namespace seaway::jobs {
 
 struct PoolSettings {
   int workers = 1;
-  RunSettings run;
+  int max_faults = 3;  ///< attempts in a row that may end by a fault of the worker without a new sample
 };
 
 class WorkerPool {
  public:
-  WorkerPool(PoolSettings settings, Solver solver, const Workspace& workspace, store::JobStore& store,
+  /// All that is given by reference must outlive the pool.
+  WorkerPool(PoolSettings settings, Executor& executor, const Workspace& workspace, store::JobStore& store,
              std::shared_ptr<spdlog::logger> log);
   /// Drains.
   ~WorkerPool();
@@ -32,6 +33,8 @@ class WorkerPool {
   void wake();
   /// Asks the run to end at its next step; nothing happens if it is not running here.
   void request_stop(const std::string& uid);
+  /// Ends the run at once, without a checkpoint, if the executor can; nothing happens if it is not running here.
+  void request_kill(const std::string& uid);
   /// Takes no more jobs, lets the running ones write a checkpoint and go back to the queue, and returns
   /// when the threads have ended.
   void drain();
@@ -41,9 +44,10 @@ class WorkerPool {
   void run_one(const store::Job& job);
   void end_job(const std::string& uid, const RunResult& result);
   bool try_end(const std::string& uid, const RunResult& result);
+  void wait_for_space();
 
   const PoolSettings settings_;
-  const Solver solver_;
+  Executor& executor_;
   const Workspace& workspace_;
   store::JobStore& store_;
   const std::shared_ptr<spdlog::logger> log_;
@@ -51,7 +55,10 @@ class WorkerPool {
   std::condition_variable wake_;
   bool work_may_wait_ = true;                          // guarded by mutex_
   bool draining_ = false;                              // guarded by mutex_
-  std::map<std::string, std::stop_source> running_;    // guarded by mutex_
+  struct Running {
+    std::stop_source stop, kill;
+  };
+  std::map<std::string, Running> running_;             // guarded by mutex_
   std::vector<std::jthread> threads_;
 };
 

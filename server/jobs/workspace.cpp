@@ -59,6 +59,7 @@ std::string sha256_hex(std::string_view bytes) {
 Workspace::Workspace(std::string data_dir) : data_dir_(fs::absolute(std::move(data_dir)).lexically_normal().string()) {
   make_folder(fs::path(data_dir_) / "files");
   make_folder(fs::path(data_dir_) / "jobs");
+  make_folder(fs::path(data_dir_) / "leases");
 }
 
 std::string Workspace::keep_file(std::string_view content) const {
@@ -89,6 +90,37 @@ std::string Workspace::keep_file(std::string_view content) const {
   return path;
 }
 
+std::string Workspace::lease_path(const std::string& uid) const { return data_dir_ + "/leases/" + uid; }
+
+std::vector<std::string> Workspace::leases() const {
+  std::vector<std::string> out;
+  for (const auto& entry : fs::directory_iterator(fs::path(data_dir_) / "leases")) out.push_back(entry.path());
+  return out;
+}
+
+bool Workspace::has_space() const {
+  std::string path = data_dir_ + "/probe.XXXXXX";
+  const int fd = ::mkostemp(path.data(), O_CLOEXEC);
+  if (fd < 0) return false;
+  const std::string bytes(1 << 20, '\0');  // more than a small write finds in a corner
+  const bool ok = ::write(fd, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()) && ::fsync(fd) == 0;
+  ::close(fd);
+  ::unlink(path.c_str());
+  return ok;
+}
+
+std::int64_t Workspace::run_bytes(const std::string& uid) const {
+  std::int64_t sum = 0;
+  std::error_code error;
+  // Files come and go while this looks: what is gone counts nothing.
+  for (fs::recursive_directory_iterator it(run_folder(uid), error), end; !error && it != end; it.increment(error)) {
+    std::error_code gone;
+    const auto size = it->is_regular_file(gone) ? it->file_size(gone) : 0;
+    if (!gone) sum += static_cast<std::int64_t>(size);
+  }
+  return sum;
+}
+
 std::string Workspace::run_folder(const std::string& uid) const { return data_dir_ + "/jobs/" + uid; }
 
 std::vector<std::string> Workspace::prepare_run(const std::string& uid, const std::vector<store::Checkpoint>& checkpoints,
@@ -106,6 +138,28 @@ std::vector<std::string> Workspace::prepare_run(const std::string& uid, const st
     removed.push_back(file.lexically_relative(folder).string());
   }
   return removed;
+}
+
+std::optional<store::Checkpoint> Workspace::newest_checkpoint(const std::vector<store::Checkpoint>& checkpoints) const {
+  std::optional<store::Checkpoint> best;
+  for (const store::Checkpoint& c : checkpoints)
+    if (is_known(c.path, {c}, {}) && (!best || c.sequence >= best->sequence)) best = c;
+  return best;
+}
+
+store::Checkpoint Workspace::copy_checkpoint(const store::Checkpoint& checkpoint, const std::string& to_uid) const {
+  const fs::path folder = run_folder(to_uid);
+  make_folder(folder);
+  const fs::path target = folder / fs::path(checkpoint.path).filename();
+  std::error_code error;
+  fs::copy_file(checkpoint.path, target, fs::copy_options::overwrite_existing, error);
+  if (error) fail(ErrorCode::unavailable, "{}: {}", target.string(), error.message());
+  const int fd = ::open(target.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool ok = fd >= 0 && ::fsync(fd) == 0;
+  if (fd >= 0) ::close(fd);
+  if (!ok) fail(ErrorCode::unavailable, "{}: {}", target.string(), std::strerror(errno));
+  sync_folder(folder);
+  return describe_checkpoint(target.string(), checkpoint.sequence);
 }
 
 void Workspace::remove_run(const std::string& uid) const {

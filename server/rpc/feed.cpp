@@ -67,6 +67,16 @@ void Feeds::leave(const std::string& uid, Watcher* key) {
   if (feed->second->watchers_.empty()) feeds_.erase(feed);
 }
 
+void Feeds::join_all(Watcher* key, const std::shared_ptr<Watcher>& watcher) {
+  const std::lock_guard lock(mutex_);
+  all_.emplace(key, watcher);
+}
+
+void Feeds::leave_all(Watcher* key) {
+  const std::lock_guard lock(mutex_);
+  all_.erase(key);
+}
+
 void Feeds::on_commit(const std::set<std::string>& uids) {
   std::vector<std::shared_ptr<Watcher>> told;
   {
@@ -78,6 +88,8 @@ void Feeds::on_commit(const std::set<std::string>& uids) {
       for (const auto& [key, weak] : feed->second->watchers_)
         if (auto watcher = weak.lock()) told.push_back(std::move(watcher));
     }
+    for (const auto& [key, weak] : all_)
+      if (auto watcher = weak.lock()) told.push_back(std::move(watcher));
   }
   for (const auto& watcher : told) watcher->on_news();
 }

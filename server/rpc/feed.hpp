@@ -55,12 +55,16 @@ class Feeds {
   ~Feeds();
   std::shared_ptr<Feed> join(const std::string& uid, Watcher* key, const std::shared_ptr<Watcher>& watcher);
   void leave(const std::string& uid, Watcher* key);
+  /// Told of every commit.
+  void join_all(Watcher* key, const std::shared_ptr<Watcher>& watcher);
+  void leave_all(Watcher* key);
 
  private:
   void on_commit(const std::set<std::string>& uids);
   store::JobStore& store_;
   std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Feed>> feeds_;  // guarded by mutex_
+  std::map<Watcher*, std::weak_ptr<Watcher>> all_;      // guarded by mutex_
   std::function<void()> unsubscribe_;
 };
 

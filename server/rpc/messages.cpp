@@ -17,9 +17,12 @@ void put_time(std::int64_t ns, google::protobuf::Timestamp& out) {
   out.set_nanos(static_cast<std::int32_t>(ns % 1'000'000'000));
 }
 
-unsigned filter_key(const std::vector<store::State>& states) {
+/// What tells one filter from another.
+unsigned filter_key(const store::ListQuery& filter) {
   unsigned key = 0;
-  for (const store::State s : states) key |= 1u << static_cast<unsigned>(s);
+  for (const store::State s : filter.states) key |= 1u << static_cast<unsigned>(s);
+  for (const auto& [name, value] : filter.labels)
+    key = key * 16777619u ^ static_cast<unsigned>(std::hash<std::string>{}(name + '\n' + value));
   return key;
 }
 
@@ -47,6 +50,12 @@ v1::Job to_proto(const store::Job& job) {
   m.set_code_version(job.code_version);
   m.set_latest_sequence(job.last_sequence);
   m.set_checkpoint_sequence(job.checkpoint_sequence);
+  m.set_priority(job.priority);
+  for (const auto& [key, value] : job.labels) (*m.mutable_labels())[key] = value;
+  m.set_note(job.note);
+  if (!job.base_uid.empty()) m.set_base_job("jobs/" + job.base_uid);
+  m.set_run_s(1e-3 * static_cast<double>(job.run_ms));
+  m.set_fault_count(job.faults);
   return m;
 }
 
@@ -96,6 +105,22 @@ v1::SampleChunk to_proto(const std::vector<store::Sample>& samples, const std::v
   return chunk;
 }
 
+void to_proto(const std::vector<store::EnvelopePoint>& points, const std::vector<store::Channel>& channels,
+              v1::ReadEnvelopeResponse& out) {
+  for (const store::EnvelopePoint& p : points) {
+    out.add_first_sequences(p.first);
+    out.add_times_s(p.time);
+    out.set_last_sequence(p.last);
+  }
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    auto& column = *out.add_columns();
+    for (const store::EnvelopePoint& p : points) {
+      column.add_minimum(convert::edge_value(channels[c].unit, p.minimum.at(c)));
+      column.add_maximum(convert::edge_value(channels[c].unit, p.maximum.at(c)));
+    }
+  }
+}
+
 void refuse_field(const std::string& field, const std::string& message, const std::string& hint) {
   throw convert::InputError("INVALID_REQUEST", {{sim::Diagnostic::Severity::error, field, message, hint}});
 }
@@ -106,11 +131,11 @@ std::string parse_job_name(const std::string& name, const std::string& field) {
   return name.substr(5);
 }
 
-std::string make_page_token(std::int64_t before_id, const std::vector<store::State>& states) {
-  return fmt::format("{:x}-{:x}", before_id, filter_key(states));
+std::string make_page_token(std::int64_t before_id, const store::ListQuery& filter) {
+  return fmt::format("{:x}-{:x}", before_id, filter_key(filter));
 }
 
-std::int64_t parse_page_token(const std::string& token, const std::vector<store::State>& states) {
+std::int64_t parse_page_token(const std::string& token, const store::ListQuery& filter) {
   if (token.empty()) return 0;
   std::int64_t id = 0;
   unsigned key = 0;
@@ -118,8 +143,8 @@ std::int64_t parse_page_token(const std::string& token, const std::vector<store:
   const auto first = std::from_chars(token.data(), end, id, 16);
   const bool dash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '-';
   const auto second = dash ? std::from_chars(first.ptr + 1, end, key, 16) : first;
-  if (!dash || second.ec != std::errc{} || second.ptr != end || id <= 0 || key != filter_key(states))
-    refuse_field("page_token", "does not belong to this list", "use next_page_token of the page before, with the same states");
+  if (!dash || second.ec != std::errc{} || second.ptr != end || id <= 0 || key != filter_key(filter))
+    refuse_field("page_token", "does not belong to this list", "use next_page_token of the page before, with the same filter");
   return id;
 }
 

@@ -17,13 +17,16 @@ v1::Artifact to_proto(const store::Artifact& artifact);
 google::protobuf::RepeatedPtrField<v1::ChannelSchema> to_proto(const std::vector<store::Channel>& channels);
 v1::SampleChunk to_proto(const std::vector<store::Sample>& samples, const std::vector<store::Channel>& channels);
 
+void to_proto(const std::vector<store::EnvelopePoint>& points, const std::vector<store::Channel>& channels,
+              v1::ReadEnvelopeResponse& out);
+
 /// uid out of jobs/<uid>. Throws convert::InputError naming `field`.
 std::string parse_job_name(const std::string& name, const std::string& field);
 
 /// Where a list goes on, tied to its filter.
-std::string make_page_token(std::int64_t before_id, const std::vector<store::State>& states);
+std::string make_page_token(std::int64_t before_id, const store::ListQuery& filter);
 /// 0 for an empty token. Throws convert::InputError for one that was not made for this list.
-std::int64_t parse_page_token(const std::string& token, const std::vector<store::State>& states);
+std::int64_t parse_page_token(const std::string& token, const store::ListQuery& filter);
 
 [[noreturn]] void refuse_field(const std::string& field, const std::string& message, const std::string& hint);
 

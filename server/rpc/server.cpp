@@ -19,11 +19,6 @@ namespace {
 
 constexpr int max_message_bytes = 8 << 20;
 
-bool is_local(const std::string& address) {
-  return address == "localhost" || address == "::1" || address == "[::1]" || address.starts_with("127.") ||
-         address.starts_with("unix:");
-}
-
 void set_keepalive(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
@@ -41,27 +36,39 @@ struct Server::Parts {
   Parts(const ServerSettings& s, jobs::Queue& queue, store::JobStore& store)
       : work(s.work_threads, 4096),
         feeds(store),
-        jobs(Backend{queue, store, feeds, registry, work, s.max_calls, s.streams}),
-        telemetry(Backend{queue, store, feeds, registry, work, s.max_calls, s.streams}),
-        stages(Backend{queue, store, feeds, registry, work, s.max_calls, s.streams}),
-        artifacts(Backend{queue, store, feeds, registry, work, s.max_calls, s.streams}),
-        cases(Backend{queue, store, feeds, registry, work, s.max_calls, s.streams}) {}
+        access(s.access, store),
+        facts(s.facts),
+        jobs(backend(s, queue, store)),
+        telemetry(backend(s, queue, store)),
+        stages(backend(s, queue, store)),
+        artifacts(backend(s, queue, store)),
+        admin(backend(s, queue, store)),
+        cases(backend(s, queue, store)) {}
 
-  void tick_loop(std::stop_token stop) {
+  Backend backend(const ServerSettings& s, jobs::Queue& queue, store::JobStore& store) {
+    return {queue, store, feeds, registry, work, s.max_calls, s.streams, access, facts};
+  }
+
+  void tick_loop(std::stop_token stop, const store::JobStore& store) {
     std::mutex mutex;
     std::condition_variable_any wake;
     std::unique_lock lock(mutex);
-    while (!wake.wait_for(lock, stop, std::chrono::seconds(1), [] { return false; }) && !stop.stop_requested())
+    while (!wake.wait_for(lock, stop, std::chrono::seconds(1), [] { return false; }) && !stop.stop_requested()) {
       registry.tick_all(std::chrono::steady_clock::now());
+      server->GetHealthCheckService()->SetServingStatus("storage", !store.is_stuck());
+    }
   }
 
   Registry registry;
   WorkQueue work;
   Feeds feeds;
+  const Access access;
+  const ServerFacts facts;
   JobsService jobs;
   TelemetryService telemetry;
   StagesService stages;
   ArtifactsService artifacts;
+  AdminService admin;
   CasesService cases;
   std::unique_ptr<grpc::Server> server;
   std::jthread ticker;
@@ -69,10 +76,7 @@ struct Server::Parts {
 
 Server::Server(const ServerSettings& settings, jobs::Queue& queue, store::JobStore& store)
     : parts_(std::make_unique<Parts>(settings, queue, store)) {
-  if (!is_local(settings.address))
-    fail(ErrorCode::invalid_argument,
-         "listen.address {} is not local; the service has no access control yet: use 127.0.0.1 or unix:/path",
-         settings.address);
+  const auto credentials = parts_->access.credentials(settings.address);
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   const bool is_unix = settings.address.starts_with("unix:");
@@ -80,7 +84,7 @@ Server::Server(const ServerSettings& settings, jobs::Queue& queue, store::JobSto
   grpc::ServerBuilder builder;
   int port = 0;
   builder.AddListeningPort(is_unix ? host : host + ":" + std::to_string(settings.port),
-                           grpc::InsecureServerCredentials(), &port);
+                           credentials, &port);
   builder.SetMaxReceiveMessageSize(max_message_bytes);
   set_keepalive(builder);
   grpc::ResourceQuota quota("seaway");
@@ -90,6 +94,7 @@ Server::Server(const ServerSettings& settings, jobs::Queue& queue, store::JobSto
   builder.RegisterService(&parts_->telemetry);
   builder.RegisterService(&parts_->stages);
   builder.RegisterService(&parts_->artifacts);
+  builder.RegisterService(&parts_->admin);
   builder.RegisterService(&parts_->cases);
   parts_->server = builder.BuildAndStart();
   if (parts_->server == nullptr || (!is_unix && port == 0))
@@ -97,9 +102,9 @@ Server::Server(const ServerSettings& settings, jobs::Queue& queue, store::JobSto
          is_unix ? "" : ":" + std::to_string(settings.port));
   address_ = is_unix ? host : host + ":" + std::to_string(port);
   auto* health = parts_->server->GetHealthCheckService();
-  for (const char* name : {"seaway.v1.Jobs", "seaway.v1.Telemetry", "seaway.v1.Stages", "seaway.v1.Artifacts", "seaway.v1.Cases"})
+  for (const char* name : {"seaway.v1.Jobs", "seaway.v1.Telemetry", "seaway.v1.Stages", "seaway.v1.Artifacts", "seaway.v1.Admin", "seaway.v1.Cases", "storage"})
     health->SetServingStatus(name, true);
-  parts_->ticker = std::jthread([parts = parts_.get()](std::stop_token stop) { parts->tick_loop(std::move(stop)); });
+  parts_->ticker = std::jthread([parts = parts_.get(), &store](std::stop_token stop) { parts->tick_loop(std::move(stop), store); });
 }
 
 Server::~Server() { shutdown(); }

@@ -6,23 +6,27 @@
 #include <string>
 
 #include "server/jobs/queue.hpp"
+#include "server/rpc/access.hpp"
+#include "server/rpc/facts.hpp"
 #include "server/rpc/stream_call.hpp"
 #include "server/store/job_store.hpp"
 
 namespace seaway::rpc {
 
 struct ServerSettings {
-  std::string address = "127.0.0.1";  ///< loopback, or unix:/path
+  std::string address = "127.0.0.1";  ///< loopback, unix:/path; others need access settings
   int port = 0;                       ///< 0: any free one; unused with unix:
   int max_calls = 1000;
-  int work_threads = 4;
+  int work_threads = 16;  ///< they wait for commits: so many submits can share one
   StreamLimits streams;
+  AccessSettings access;
+  ServerFacts facts;
 };
 
 class Server {
  public:
   /// Listens when it returns. Throws Error(unavailable) if the address cannot be used, invalid_argument if
-  /// it is not local: the service has no access control yet.
+  /// others can reach it without TLS and principals.
   Server(const ServerSettings& settings, jobs::Queue& queue, store::JobStore& store);
   /// Shuts down.
   ~Server();

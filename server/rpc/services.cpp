@@ -4,18 +4,37 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/version.hpp"
 #include "server/jobs/submission.hpp"
 #include "server/rpc/download.hpp"
 #include "server/rpc/messages.hpp"
 #include "server/rpc/unary.hpp"
 #include "server/rpc/watch.hpp"
+#include "server/rpc/watch_jobs.hpp"
 
 namespace seaway::rpc {
 namespace {
 
+/// Who may call what, and the name of it for the audit trail.
+struct Method {
+  Role role;
+  const char* name;
+};
+
+/// What changes something is recorded, with what came of it.
 template <class Work>
-grpc::ServerUnaryReactor* answer(const Backend& b, grpc::CallbackServerContext* context, Work work) {
-  return run_unary(context, b.registry, b.work, std::move(work));
+grpc::ServerUnaryReactor* answer(const Backend& b, grpc::CallbackServerContext* context, Method method,
+                                 const std::string& target, Work work) {
+  return run_unary(context, b.registry, b.work, [b, context, method, target, work = std::move(work)]() mutable {
+    const std::string who = b.access.check(*context, method.role, method.name, target);
+    try {
+      work();
+    } catch (const std::exception& error) {
+      if (method.role != Role::viewer) b.access.record(*context, who, method.name, target, error.what());
+      throw;
+    }
+    if (method.role != Role::viewer) b.access.record(*context, who, method.name, target, "OK");
+  });
 }
 
 store::Job find_job(const Backend& b, const std::string& name, const std::string& field) {
@@ -25,18 +44,31 @@ store::Job find_job(const Backend& b, const std::string& name, const std::string
   return std::move(*job);
 }
 
+void fill_header(const store::Job& job, const std::vector<store::Channel>& channels, v1::StreamHeader& header) {
+  header.set_first_available(1);
+  header.set_latest(job.last_sequence);
+  header.set_attempt(job.attempt);
+  *header.mutable_channels() = to_proto(channels);
+}
+
 int page_size(int wanted, int normal, int largest) {
   if (wanted < 0 || wanted > largest)
     refuse_field("page_size", fmt::format("{} is not allowed", wanted), fmt::format("must be 0 to {}", largest));
   return wanted == 0 ? normal : wanted;
 }
 
-/// Admits a stream or answers at once that there are too many.
+/// Admits a stream or answers at once that there are too many, or that it is not allowed.
 template <class Call, class... Args>
-auto open_stream(const Backend& b, grpc::CallbackServerContext* context, Args&&... args) {
+auto open_stream(const Backend& b, grpc::CallbackServerContext* context, const char* method, const std::string& target,
+                 Args&&... args) {
   auto call = std::make_shared<Call>(context, b.registry, b.work, b.streams, std::forward<Args>(args)...);
   auto* reactor = call.get();
   if (b.registry.size() >= static_cast<std::size_t>(b.max_calls)) reactor->refuse_too_many();
+  try {
+    b.access.check(*context, Role::viewer, method, target);
+  } catch (...) {
+    reactor->refuse(to_status(std::current_exception()));
+  }
   call->start();
   return reactor;
 }
@@ -45,7 +77,7 @@ auto open_stream(const Backend& b, grpc::CallbackServerContext* context, Args&&.
 
 grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* context,
                                                  const v1::CreateJobRequest* request, v1::CreateJobResponse* response) {
-  return answer(b_, context, [b = b_, request, response] {
+  return answer(b_, context, {Role::submitter, "CreateJob"}, "cases/" + request->case_().title(), [b = b_, request, response] {
     jobs::Submitted submitted = b.queue.submit(*request);
     *response->mutable_report() = std::move(submitted.report);
     if (submitted.has_job) *response->mutable_job() = to_proto(submitted.job);
@@ -54,7 +86,7 @@ grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* co
 
 grpc::ServerUnaryReactor* JobsService::GetJob(grpc::CallbackServerContext* context, const v1::GetJobRequest* request,
                                               v1::Job* response) {
-  return answer(b_, context, [b = b_, request, response] {
+  return answer(b_, context, {Role::viewer, "GetJob"}, request->name(), [b = b_, request, response] {
     const store::Job job = find_job(b, request->name(), "name");
     *response = to_proto(job);
     if (request->view() == v1::JOB_VIEW_BASIC) return;
@@ -65,7 +97,7 @@ grpc::ServerUnaryReactor* JobsService::GetJob(grpc::CallbackServerContext* conte
 
 grpc::ServerUnaryReactor* JobsService::ListJobs(grpc::CallbackServerContext* context,
                                                 const v1::ListJobsRequest* request, v1::ListJobsResponse* response) {
-  return answer(b_, context, [b = b_, request, response] {
+  return answer(b_, context, {Role::viewer, "ListJobs"}, "jobs", [b = b_, request, response] {
     store::ListQuery query;
     query.limit = page_size(request->page_size(), 50, 1000);
     for (int i = 0; i < request->states_size(); ++i) {
@@ -73,45 +105,118 @@ grpc::ServerUnaryReactor* JobsService::ListJobs(grpc::CallbackServerContext* con
         refuse_field(fmt::format("states[{}]", i), "is no state", "see Job.State");
       query.states.push_back(static_cast<store::State>(request->states(i)));
     }
-    query.before_id = parse_page_token(request->page_token(), query.states);
+    query.labels = {request->labels().begin(), request->labels().end()};
+    query.before_id = parse_page_token(request->page_token(), query);
     const auto jobs = b.store.list(query);
     for (const store::Job& job : jobs) *response->add_jobs() = to_proto(job);
     if (static_cast<int>(jobs.size()) == query.limit)
-      response->set_next_page_token(make_page_token(jobs.back().id, query.states));
+      response->set_next_page_token(make_page_token(jobs.back().id, query));
   });
 }
 
 grpc::ServerUnaryReactor* JobsService::CancelJob(grpc::CallbackServerContext* context,
                                                  const v1::CancelJobRequest* request, v1::Job* response) {
-  return answer(b_, context, [b = b_, request, response] {
+  return answer(b_, context, {Role::submitter, "CancelJob"}, request->name(), [b = b_, request, response] {
     *response = to_proto(b.queue.cancel(parse_job_name(request->name(), "name")));
+  });
+}
+
+grpc::ServerUnaryReactor* JobsService::KillJob(grpc::CallbackServerContext* context, const v1::KillJobRequest* request,
+                                               v1::Job* response) {
+  return answer(b_, context, {Role::submitter, "KillJob"}, request->name(), [b = b_, request, response] {
+    *response = to_proto(b.queue.kill(parse_job_name(request->name(), "name")));
+  });
+}
+
+grpc::ServerUnaryReactor* JobsService::HoldJob(grpc::CallbackServerContext* context, const v1::HoldJobRequest* request,
+                                               v1::Job* response) {
+  return answer(b_, context, {Role::submitter, "HoldJob"}, request->name(), [b = b_, request, response] {
+    *response = to_proto(b.queue.hold(parse_job_name(request->name(), "name")));
+  });
+}
+
+grpc::ServerUnaryReactor* JobsService::ReleaseJob(grpc::CallbackServerContext* context,
+                                                  const v1::ReleaseJobRequest* request, v1::Job* response) {
+  return answer(b_, context, {Role::submitter, "ReleaseJob"}, request->name(), [b = b_, request, response] {
+    *response = to_proto(b.queue.release(parse_job_name(request->name(), "name")));
+  });
+}
+
+grpc::ServerUnaryReactor* JobsService::RetryJob(grpc::CallbackServerContext* context,
+                                                const v1::RetryJobRequest* request, v1::Job* response) {
+  return answer(b_, context, {Role::submitter, "RetryJob"}, request->name(), [b = b_, request, response] {
+    auto from = jobs::RetryFrom::any;
+    switch (request->from()) {
+      case v1::RetryJobRequest::FROM_UNSPECIFIED: break;
+      case v1::RetryJobRequest::FROM_START: from = jobs::RetryFrom::start; break;
+      case v1::RetryJobRequest::FROM_LAST_CHECKPOINT: from = jobs::RetryFrom::checkpoint; break;
+      default: refuse_field("from", "is unknown", "see RetryJobRequest.From");
+    }
+    *response = to_proto(b.queue.retry(parse_job_name(request->name(), "name"), request->request_id(), from));
+  });
+}
+
+grpc::ServerUnaryReactor* JobsService::UpdateJob(grpc::CallbackServerContext* context,
+                                                 const v1::UpdateJobRequest* request, v1::Job* response) {
+  return answer(b_, context, {Role::submitter, "UpdateJob"}, request->job().name(), [b = b_, request, response] {
+    store::JobUpdate update;
+    const v1::Job& job = request->job();
+    for (const std::string& path : request->update_mask().paths()) {
+      if (path == "priority")
+        update.priority = job.priority();
+      else if (path == "note")
+        update.note = job.note();
+      else if (path == "labels")
+        update.labels = store::Labels(job.labels().begin(), job.labels().end());
+      else
+        refuse_field("update_mask", "'" + path + "' cannot be changed", "allowed are priority, labels, note");
+    }
+    if (request->update_mask().paths_size() == 0) refuse_field("update_mask", "is missing", "name what shall change");
+    *response = to_proto(b.queue.update(parse_job_name(job.name(), "job.name"), update));
   });
 }
 
 grpc::ServerUnaryReactor* JobsService::DeleteJob(grpc::CallbackServerContext* context,
                                                  const v1::DeleteJobRequest* request, v1::DeleteJobResponse*) {
-  return answer(b_, context, [b = b_, request] { b.queue.erase(parse_job_name(request->name(), "name")); });
+  return answer(b_, context, {Role::admin, "DeleteJob"}, request->name(), [b = b_, request] { b.queue.erase(parse_job_name(request->name(), "name")); });
 }
 
 grpc::ServerWriteReactor<v1::WatchSamplesResponse>* TelemetryService::WatchSamples(
     grpc::CallbackServerContext* context, const v1::WatchSamplesRequest* request) {
-  return open_stream<WatchCall>(b_, context, b_.feeds, *request);
+  return open_stream<WatchCall>(b_, context, "WatchSamples", request->job(), b_.feeds, *request);
+}
+
+grpc::ServerWriteReactor<v1::WatchJobsResponse>* TelemetryService::WatchJobs(grpc::CallbackServerContext* context,
+                                                                             const v1::WatchJobsRequest* request) {
+  return open_stream<WatchJobsCall>(b_, context, "WatchJobs", "jobs", b_.feeds, b_.store, *request);
+}
+
+grpc::ServerUnaryReactor* TelemetryService::ReadEnvelope(grpc::CallbackServerContext* context,
+                                                         const v1::ReadEnvelopeRequest* request,
+                                                         v1::ReadEnvelopeResponse* response) {
+  return answer(b_, context, {Role::viewer, "ReadEnvelope"}, request->job(), [b = b_, request, response] {
+    const int most = request->max_points() == 0 ? 1000 : request->max_points();
+    if (most < 2 || most > 10'000) refuse_field("max_points", fmt::format("{} is not allowed", most), "must be 2 to 10000");
+    if (request->after_sequence() < 0) refuse_field("after_sequence", "is negative", "0 starts at the first sample");
+    if (request->until_sequence() < 0) refuse_field("until_sequence", "is negative", "0 goes to the last sample");
+    const store::Job job = find_job(b, request->job(), "job");
+    const auto channels = b.store.channels(job.uid);
+    to_proto(b.store.envelope(job.uid, request->after_sequence(), request->until_sequence(), most), channels, *response);
+    fill_header(job, channels, *response->mutable_header());
+  });
 }
 
 grpc::ServerUnaryReactor* TelemetryService::ReadSamples(grpc::CallbackServerContext* context,
                                                         const v1::ReadSamplesRequest* request,
                                                         v1::ReadSamplesResponse* response) {
-  return answer(b_, context, [b = b_, request, response] {
+  return answer(b_, context, {Role::viewer, "ReadSamples"}, request->job(), [b = b_, request, response] {
     const int limit = page_size(request->page_size(), 1000, 5000);
     if (request->after_sequence() < 0) refuse_field("after_sequence", "is negative", "0 starts at the first sample");
     const store::Job job = find_job(b, request->job(), "job");
     const auto channels = b.store.channels(job.uid);
     const auto samples = b.store.samples(job.uid, request->after_sequence(), limit);
-    v1::StreamHeader& header = *response->mutable_header();
-    header.set_first_available(1);
-    header.set_latest(std::max(job.last_sequence, samples.empty() ? 0 : samples.back().sequence));
-    header.set_attempt(job.attempt);
-    *header.mutable_channels() = to_proto(channels);
+    fill_header(job, channels, *response->mutable_header());
+    if (!samples.empty()) response->mutable_header()->set_latest(std::max(job.last_sequence, samples.back().sequence));
     if (!samples.empty()) *response->mutable_chunk() = to_proto(samples, channels);
   });
 }
@@ -119,7 +224,7 @@ grpc::ServerUnaryReactor* TelemetryService::ReadSamples(grpc::CallbackServerCont
 grpc::ServerUnaryReactor* StagesService::ListStages(grpc::CallbackServerContext* context,
                                                     const v1::ListStagesRequest* request,
                                                     v1::ListStagesResponse* response) {
-  return answer(b_, context, [b = b_, request, response] {
+  return answer(b_, context, {Role::viewer, "ListStages"}, request->job(), [b = b_, request, response] {
     const std::string uid = parse_job_name(request->job(), "job");
     for (const store::StageRow& row : b.store.stages(uid))
       if (!response->add_stages()->ParseFromString(row.report))
@@ -130,7 +235,7 @@ grpc::ServerUnaryReactor* StagesService::ListStages(grpc::CallbackServerContext*
 grpc::ServerUnaryReactor* ArtifactsService::ListArtifacts(grpc::CallbackServerContext* context,
                                                           const v1::ListArtifactsRequest* request,
                                                           v1::ListArtifactsResponse* response) {
-  return answer(b_, context, [b = b_, request, response] {
+  return answer(b_, context, {Role::viewer, "ListArtifacts"}, request->job(), [b = b_, request, response] {
     for (const store::Artifact& a : b.store.artifacts(parse_job_name(request->job(), "job")))
       *response->add_artifacts() = to_proto(a);
   });
@@ -138,12 +243,36 @@ grpc::ServerUnaryReactor* ArtifactsService::ListArtifacts(grpc::CallbackServerCo
 
 grpc::ServerWriteReactor<v1::DownloadArtifactResponse>* ArtifactsService::DownloadArtifact(
     grpc::CallbackServerContext* context, const v1::DownloadArtifactRequest* request) {
-  return open_stream<DownloadCall>(b_, context, b_.store, *request);
+  return open_stream<DownloadCall>(b_, context, "DownloadArtifact", request->job(), b_.store, *request);
+}
+
+grpc::ServerUnaryReactor* AdminService::GetServerInfo(grpc::CallbackServerContext* context,
+                                                      const v1::GetServerInfoRequest*, v1::ServerInfo* response) {
+  return answer(b_, context, {Role::viewer, "GetServerInfo"}, "server", [b = b_, response] {
+    response->set_version(std::string(code_version()));
+    response->set_executor(b.facts.executor);
+    response->set_worker_count(b.facts.workers);
+    response->set_log_level(b.facts.log_level());
+    response->set_storage_ok(!b.store.is_stuck());
+    const auto counts = b.store.counts();
+    for (int state = v1::Job::STATE_QUEUED; state <= v1::Job::STATE_CANCELLED; ++state) {
+      const auto found = counts.find(static_cast<store::State>(state));
+      response->add_job_counts(found == counts.end() ? 0 : found->second);
+    }
+  });
+}
+
+grpc::ServerUnaryReactor* AdminService::SetLogLevel(grpc::CallbackServerContext* context,
+                                                    const v1::SetLogLevelRequest* request, v1::SetLogLevelResponse*) {
+  return answer(b_, context, {Role::admin, "SetLogLevel"}, "server", [b = b_, request] {
+    if (!b.facts.set_log_level(request->level()))
+      refuse_field("level", "'" + request->level() + "' is unknown", "allowed are trace, debug, info, warn, error");
+  });
 }
 
 grpc::ServerUnaryReactor* CasesService::ValidateCase(grpc::CallbackServerContext* context,
                                                      const v1::ValidateCaseRequest* request, v1::CaseReport* response) {
-  return answer(b_, context, [b = b_, request, response] {
+  return answer(b_, context, {Role::viewer, "ValidateCase"}, "cases", [b = b_, request, response] {
     if (!request->has_case_()) refuse_field("case", "is missing", "send the case to check");
     *response = b.queue.validate(request->case_(), request->files());
   });

@@ -4,6 +4,8 @@
 
 #include "seaway/v1/job_service.grpc.pb.h"
 #include "server/jobs/queue.hpp"
+#include "server/rpc/access.hpp"
+#include "server/rpc/facts.hpp"
 #include "server/rpc/feed.hpp"
 #include "server/rpc/registry.hpp"
 #include "server/rpc/stream_call.hpp"
@@ -20,6 +22,8 @@ struct Backend {
   WorkQueue& work;
   int max_calls = 1000;  ///< live calls, streams included
   StreamLimits streams;
+  const Access& access;
+  const ServerFacts& facts;
 };
 
 class JobsService final : public v1::Jobs::CallbackService {
@@ -33,6 +37,16 @@ class JobsService final : public v1::Jobs::CallbackService {
                                      v1::ListJobsResponse* response) override;
   grpc::ServerUnaryReactor* CancelJob(grpc::CallbackServerContext* context, const v1::CancelJobRequest* request,
                                       v1::Job* response) override;
+  grpc::ServerUnaryReactor* KillJob(grpc::CallbackServerContext* context, const v1::KillJobRequest* request,
+                                    v1::Job* response) override;
+  grpc::ServerUnaryReactor* HoldJob(grpc::CallbackServerContext* context, const v1::HoldJobRequest* request,
+                                    v1::Job* response) override;
+  grpc::ServerUnaryReactor* ReleaseJob(grpc::CallbackServerContext* context, const v1::ReleaseJobRequest* request,
+                                       v1::Job* response) override;
+  grpc::ServerUnaryReactor* RetryJob(grpc::CallbackServerContext* context, const v1::RetryJobRequest* request,
+                                     v1::Job* response) override;
+  grpc::ServerUnaryReactor* UpdateJob(grpc::CallbackServerContext* context, const v1::UpdateJobRequest* request,
+                                      v1::Job* response) override;
   grpc::ServerUnaryReactor* DeleteJob(grpc::CallbackServerContext* context, const v1::DeleteJobRequest* request,
                                       v1::DeleteJobResponse* response) override;
 
@@ -45,6 +59,10 @@ class TelemetryService final : public v1::Telemetry::CallbackService {
   explicit TelemetryService(Backend backend) : b_(backend) {}
   grpc::ServerWriteReactor<v1::WatchSamplesResponse>* WatchSamples(grpc::CallbackServerContext* context,
                                                                    const v1::WatchSamplesRequest* request) override;
+  grpc::ServerWriteReactor<v1::WatchJobsResponse>* WatchJobs(grpc::CallbackServerContext* context,
+                                                             const v1::WatchJobsRequest* request) override;
+  grpc::ServerUnaryReactor* ReadEnvelope(grpc::CallbackServerContext* context, const v1::ReadEnvelopeRequest* request,
+                                         v1::ReadEnvelopeResponse* response) override;
   grpc::ServerUnaryReactor* ReadSamples(grpc::CallbackServerContext* context, const v1::ReadSamplesRequest* request,
                                         v1::ReadSamplesResponse* response) override;
 
@@ -69,6 +87,18 @@ class ArtifactsService final : public v1::Artifacts::CallbackService {
                                           v1::ListArtifactsResponse* response) override;
   grpc::ServerWriteReactor<v1::DownloadArtifactResponse>* DownloadArtifact(
       grpc::CallbackServerContext* context, const v1::DownloadArtifactRequest* request) override;
+
+ private:
+  Backend b_;
+};
+
+class AdminService final : public v1::Admin::CallbackService {
+ public:
+  explicit AdminService(Backend backend) : b_(backend) {}
+  grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context, const v1::GetServerInfoRequest* request,
+                                          v1::ServerInfo* response) override;
+  grpc::ServerUnaryReactor* SetLogLevel(grpc::CallbackServerContext* context, const v1::SetLogLevelRequest* request,
+                                        v1::SetLogLevelResponse* response) override;
 
  private:
   Backend b_;

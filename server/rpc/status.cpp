@@ -80,6 +80,9 @@ grpc::Status to_status(const std::exception_ptr& error) {
     return build(mapped.code, mapped.reason, e.what(), mapped.retry_s, {});
   } catch (const OutOfRange& e) {
     return build(grpc::StatusCode::OUT_OF_RANGE, "SEQUENCE_OUT_OF_RANGE", e.what(), 0, {});
+  } catch (const Denied& e) {
+    return e.known() ? build(grpc::StatusCode::PERMISSION_DENIED, "ROLE", e.what(), 0, {})
+                     : build(grpc::StatusCode::UNAUTHENTICATED, "WHO", e.what(), 0, {});
   } catch (const std::bad_alloc&) {
     return build(grpc::StatusCode::RESOURCE_EXHAUSTED, "MEMORY", "the server is out of memory", 10, {});
   } catch (const std::exception& e) {

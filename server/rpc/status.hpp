@@ -16,6 +16,16 @@ class OutOfRange : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Becomes UNAUTHENTICATED (nobody knows who calls) or PERMISSION_DENIED (it is known, and may not).
+class Denied : public std::runtime_error {
+ public:
+  Denied(bool known, const std::string& message) : std::runtime_error(message), known_(known) {}
+  bool known() const { return known_; }
+
+ private:
+  bool known_;
+};
+
 /// Of the exception in flight or given: code, text, ErrorInfo, BadRequest for wrong input, RetryInfo where
 /// trying again helps.
 grpc::Status to_status(const std::exception_ptr& error);

@@ -41,8 +41,10 @@ class StreamCall : public grpc::ServerWriteReactor<Response>,
 
   /// Before start(): the call only says that there are too many.
   void refuse_too_many() {
-    ending_ = make_status(grpc::StatusCode::RESOURCE_EXHAUSTED, "TOO_MANY_STREAMS", "too many live calls; try again later");
+    refuse(make_status(grpc::StatusCode::RESOURCE_EXHAUSTED, "TOO_MANY_STREAMS", "too many live calls; try again later"));
   }
+
+  void refuse(grpc::Status status) { ending_ = std::move(status); }
 
   void close() override {
     end_with(make_status(grpc::StatusCode::UNAVAILABLE, "SERVER_DRAIN", "the server is stopping; call again and resume"));

@@ -3,6 +3,8 @@
 
 #include <sqlite3.h>
 
+#include <cstdio>
+
 #include "core/base/error.hpp"
 
 namespace seaway::store {
@@ -24,10 +26,10 @@ namespace {
 
 }  // namespace
 
-Database::Database(const std::string& path, Role role) {
+Database::Database(const std::string& path, Role role, const std::string& vfs) {
   // Every connection is used by one thread at a time, so SQLite's own mutexes are not needed.
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | (role == Role::writer ? SQLITE_OPEN_CREATE : 0);
-  if (const int code = sqlite3_open_v2(path.c_str(), &db_, flags, nullptr); code != SQLITE_OK) {
+  if (const int code = sqlite3_open_v2(path.c_str(), &db_, flags, vfs.empty() ? nullptr : vfs.c_str()); code != SQLITE_OK) {
     const std::string text = db_ != nullptr ? sqlite3_errmsg(db_) : "out of memory";
     sqlite3_close(db_);
     fail(ErrorCode::unavailable, "database {}: {}", path, text);
@@ -86,6 +88,20 @@ Statement Database::prepare(std::string_view sql) {
 
 std::int64_t Database::changes() const { return sqlite3_changes64(db_); }
 std::int64_t Database::last_row_id() const { return sqlite3_last_insert_rowid(db_); }
+
+void Database::copy_to(const std::string& path) {
+  sqlite3* copy = nullptr;
+  std::remove(path.c_str());  // what an interrupted copy has left
+  int code = sqlite3_open_v2(path.c_str(), &copy, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
+  if (code == SQLITE_OK) {
+    sqlite3_backup* backup = sqlite3_backup_init(copy, "main", db_, "main");
+    if (backup != nullptr) sqlite3_backup_step(backup, -1);  // all at once: one read transaction, and readers do not block
+    code = backup != nullptr ? sqlite3_backup_finish(backup) : sqlite3_errcode(copy);
+  }
+  const std::string text = sqlite3_errmsg(copy);
+  sqlite3_close_v2(copy);
+  if (code != SQLITE_OK) fail(ErrorCode::unavailable, "{} cannot be written: {}", path, text);
+}
 
 void Database::checkpoint(bool truncate) {
   sqlite3_wal_checkpoint_v2(db_, nullptr, truncate ? SQLITE_CHECKPOINT_TRUNCATE : SQLITE_CHECKPOINT_PASSIVE,

@@ -19,7 +19,8 @@ class Statement;
 class Database {
  public:
   enum class Role { writer, reader };
-  Database(const std::string& path, Role role);
+  /// `vfs`: how SQLite reaches its files; empty: as the system does.
+  Database(const std::string& path, Role role, const std::string& vfs = "");
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
@@ -29,6 +30,8 @@ class Database {
   Statement prepare(std::string_view sql);
   std::int64_t changes() const;
   std::int64_t last_row_id() const;
+  /// A copy of the database, as it is now, in a new file that is durable when this returns.
+  void copy_to(const std::string& path);
   /// Writer only: moves the log into the file, as far as readers allow; all of it if `truncate`.
   void checkpoint(bool truncate);
   /// Pages in the log after the last commit of this connection.

@@ -34,6 +34,7 @@ std::string_view to_string(Reason reason) {
     case Reason::executor_lost: return "EXECUTOR_LOST";
     case Reason::server_restart: return "SERVER_RESTART";
     case Reason::internal: return "INTERNAL";
+    case Reason::stalled: return "STALLED";
   }
   return "UNKNOWN";
 }

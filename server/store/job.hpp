@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +18,7 @@ enum class State { queued = 1, held = 2, running = 3, cancelling = 4, succeeded 
 /// Numbers as in seaway.v1.Job.Reason.
 enum class Reason {
   none = 0, diverged, nan, time_limit, memory, worker_crash, checkpoint_lost, invalid_input, disk_full, user,
-  server_drain, executor_lost, server_restart, internal
+  server_drain, executor_lost, server_restart, internal, stalled
 };
 
 std::string_view to_string(State state);
@@ -33,6 +35,8 @@ struct Progress {
   bool held = false;
 };
 
+using Labels = std::map<std::string, std::string>;
+
 struct Job {
   std::int64_t id = 0;  ///< order of creation
   std::string uid, request_id, title;
@@ -40,16 +44,49 @@ struct Job {
   Reason reason = Reason::none;
   std::string message;
   int attempt = 0;          ///< starts of the solver so far
-  int stalled_attempts = 0; ///< attempts in a row that ended without a new sample
+  int stalled_attempts = 0; ///< attempts in a row that ended with the server, without a new sample
+  int faults = 0;           ///< attempts in a row that ended by a fault of the worker, without a new sample
+  std::int64_t run_ms = 0;  ///< computing time of all attempts
   std::string digest, code_version;
   std::string spec;         ///< opaque: case and files as submitted; empty in lists
   std::int64_t created_ns = 0, started_ns = 0, ended_ns = 0, updated_ns = 0;  ///< 0: not yet
   Progress progress;
   std::int64_t last_sequence = 0, checkpoint_sequence = 0;
+  int priority = 0;
+  Labels labels;
+  std::string note;
+  std::string base_uid;     ///< the job that this one repeats; empty: none
 };
 
 struct NewJob {
   std::string uid, request_id, title, digest, code_version, spec;
+  int priority = 0;
+  Labels labels{};
+  std::string note{}, base_uid{};
+  bool held = false;  ///< begins as HELD
+};
+
+/// What may change in any state.
+struct JobUpdate {
+  std::optional<int> priority;
+  std::optional<Labels> labels;  ///< replaces all
+  std::optional<std::string> note;
+};
+
+/// One change of a job; revisions have no gaps.
+struct Change {
+  std::int64_t revision = 0;
+  std::string uid, kind;  ///< CREATED, STATE, UPDATED, DELETED
+  State state = State::queued;
+  std::int64_t time_ns = 0;
+};
+struct ChangeRange {
+  std::int64_t first = 1, latest = 0;  ///< that are kept; none if latest < first
+};
+
+struct AuditRow {
+  std::string principal, peer, method, target, outcome;
+  std::int64_t time_ns = 0;
 };
 
 struct Channel {

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "server/store/envelope.hpp"
 #include "server/store/job.hpp"
 
 namespace seaway::store {
@@ -24,6 +25,7 @@ struct ListQuery {
   std::int64_t before_id = 0;  ///< only jobs created before this one; 0: from the newest
   int limit = 50;
   std::vector<State> states;   ///< empty: all
+  Labels labels;               ///< jobs that have all of these
 };
 
 struct Created {
@@ -41,22 +43,47 @@ class JobStore {
 
   // --- jobs ------------------------------------------------------------------------------------------
   virtual Created create(const NewJob& job) = 0;
-  /// Refuses with resource_exhausted while `limit` or more jobs are queued; 0: no limit.
+  /// Throws failed_precondition if the job of this request has been deleted. Refuses with resource_exhausted while `limit` or more jobs are queued; 0: no limit.
   virtual Created create_limited(const NewJob& job, int limit) = 0;
   virtual std::optional<Job> find(const std::string& uid) const = 0;
   /// Newest first, without their spec.
   virtual std::vector<Job> list(const ListQuery& query) const = 0;
-  /// The oldest queued job, now running with one attempt more; nothing if the queue is empty.
+  /// The next queued job, now running with one attempt more; nothing if the queue is empty. The order is by
+  /// priority less a tenth of the jobs that were started while it waited: at most 10 (p - q) later jobs of
+  /// priority p overtake one of priority q.
   virtual std::optional<Job> take_next() = 0;
   /// Moves the job if it is in state `from`; nothing if it is not (another was faster). Everything handed
   /// over for the job before is durable too. Throws for moves that do not exist.
   virtual std::optional<Job> move(const std::string& uid, State from, State to, Reason reason,
                                   const std::string& message) = 0;
+  /// The attempt of a running job ended by a fault of its worker: back to the queue, or failed after
+  /// `max_faults` faults in a row without a new sample; a cancelling one is cancelled. Nothing if it does
+  /// not run. Everything handed over for the job before is durable too.
+  virtual std::optional<Job> end_by_fault(const std::string& uid, Reason reason, const std::string& message,
+                                          int max_faults) = 0;
+  /// Throws not_found.
+  virtual Job update(const std::string& uid, const JobUpdate& update) = 0;
+  /// Gives a held job without history that of another one up to `checkpoint`, and queues it. Throws
+  /// failed_precondition if it is not like that.
+  virtual Job adopt_history(const std::string& uid, const std::string& from, const Checkpoint& checkpoint) = 0;
   /// After a start: running jobs go back to the queue (or fail after `max_stalled` attempts in a row without
   /// a new sample), cancelling ones are cancelled.
   virtual Recovery recover(int max_stalled) = 0;
-  /// Removes an ended job and its data; false if it has not ended. Throws not_found.
+  /// Removes an ended job and its data; false if it has not ended. Throws not_found. Its request is remembered.
   virtual bool erase(const std::string& uid) = 0;
+
+  /// Jobs that ended before this time, oldest first.
+  virtual std::vector<std::string> ended_before(std::int64_t time_ns, int limit) const = 0;
+  /// Forgets all but the last `keep` changes, and deleted jobs from before this time.
+  virtual void prune(std::int64_t keep, std::int64_t deleted_before_ns) = 0;
+  /// At most `limit` changes after `after`, in order, without gaps as long as `after` is not before the range.
+  virtual std::vector<Change> changes(std::int64_t after, int limit) const = 0;
+  virtual ChangeRange change_range() const = 0;
+  /// Jobs by state, by its number.
+  virtual std::map<State, std::int64_t> counts() const = 0;
+  /// Handed over without waiting.
+  virtual void add_audit(AuditRow row) = 0;
+  virtual std::vector<AuditRow> audit(int limit) const = 0;
 
   // --- the data of a run -----------------------------------------------------------------------------
   virtual void set_channels(const std::string& uid, std::vector<Channel> channels) = 0;
@@ -64,6 +91,8 @@ class JobStore {
   /// recorded once as a REPLAY_MISMATCH event, and the stored ones stay. One that leaves a gap is not stored and
   /// recorded as HISTORY_GAP.
   virtual void add_samples(const std::string& uid, std::vector<Sample> samples) = 0;
+  /// Computing time of the running attempt that is not accounted for yet.
+  virtual void add_run_time(const std::string& uid, std::int64_t ms) = 0;
   virtual void set_progress(const std::string& uid, const Progress& progress) = 0;
   virtual void put_stage(const std::string& uid, StageRow stage) = 0;
   virtual void add_checkpoint(const std::string& uid, Checkpoint checkpoint) = 0;
@@ -71,11 +100,17 @@ class JobStore {
   virtual void add_event(const std::string& uid, const std::string& kind, const std::string& text) = 0;
   /// Returns when all that was handed over before is durable.
   virtual void flush() = 0;
+  /// The disk refused the last commit: what was handed over waits and is tried again every second. Producers
+  /// of data should pause.
+  virtual bool is_stuck() const = 0;
 
   // --- reading ---------------------------------------------------------------------------------------
   virtual std::vector<Channel> channels(const std::string& uid) const = 0;
   /// At most `limit` samples after `after`, in order, without gaps.
   virtual std::vector<Sample> samples(const std::string& uid, std::int64_t after, int limit) const = 0;
+  /// The samples after `after` up to `until` (0: the last) as at most `max_points` points.
+  virtual std::vector<EnvelopePoint> envelope(const std::string& uid, std::int64_t after, std::int64_t until,
+                                              int max_points) const = 0;
   virtual std::vector<StageRow> stages(const std::string& uid) const = 0;
   virtual std::vector<Checkpoint> checkpoints(const std::string& uid) const = 0;
   virtual std::vector<Artifact> artifacts(const std::string& uid) const = 0;

@@ -10,16 +10,19 @@ namespace seaway::store {
 
 int schema_version() { return static_cast<int>(schema_steps.size()); }
 
-void migrate(Database& db) {
-  std::int64_t version = 0;
-  {
-    Statement query = db.prepare("PRAGMA user_version");
-    if (query.step()) version = query.integer(0);
-  }
+int version_of(Database& db) {
+  Statement query = db.prepare("PRAGMA user_version");
+  return query.step() ? static_cast<int>(query.integer(0)) : 0;
+}
+
+void migrate(Database& db) { migrate_to(db, schema_version()); }
+
+void migrate_to(Database& db, int target) {
+  int version = version_of(db);
   if (version > schema_version())
     fail(ErrorCode::failed_precondition,
          "the database has schema {}, this program knows {}; start a newer seawayd", version, schema_version());
-  for (; version < schema_version(); ++version) {
+  for (; version < target; ++version) {
     db.execute("BEGIN IMMEDIATE");
     try {
       db.execute(std::string(schema_steps[static_cast<std::size_t>(version)]));

@@ -105,6 +105,7 @@ void add_run(Database& db, const std::string& uid, std::span<const Sample> run, 
     open.push_back(s);
     if (static_cast<int>(open.size()) < chunk_samples) continue;
     write_chunk(db, tail.id, open);
+    add_envelopes(db, uid, tail.id, open);
     open.clear();
   }
   if (!open.empty()) write_chunk(db, tail.id, open);
@@ -143,6 +144,10 @@ void add_artifact(Database& db, const std::string& uid, const Artifact& a, std::
              "VALUES (?, ?, ?, ?, ?, ?)")
       .bind(job_id(db, uid), a.name, a.path, a.media_type, a.size, now)
       .run();
+}
+
+void add_run_time(Database& db, const std::string& uid, std::int64_t ms) {
+  db.prepare("UPDATE jobs SET run_ms = run_ms + ? WHERE uid = ?").bind(ms, uid).run();
 }
 
 void set_progress(Database& db, const std::string& uid, const Progress& p, std::int64_t now) {

@@ -47,8 +47,8 @@ class LockFile {
 
 class ReaderPool {
  public:
-  ReaderPool(const std::string& path, int n) {
-    for (int i = 0; i < n; ++i) free_.push_back(std::make_unique<Database>(path, Database::Role::reader));
+  ReaderPool(const std::string& path, const std::string& vfs, int n) {
+    for (int i = 0; i < n; ++i) free_.push_back(std::make_unique<Database>(path, Database::Role::reader, vfs));
   }
   template <class F>
   auto use(F f) {
@@ -77,209 +77,83 @@ class ReaderPool {
   std::vector<std::unique_ptr<Database>> free_;  // guarded by mutex_
 };
 
-constexpr std::string_view job_columns =
-    "id, uid, request_id, title, state, reason, message, attempt, stalled_attempts, digest, code_version, "
-    "created_ns, started_ns, ended_ns, updated_ns, stage, stage_count, time_s, fraction, remaining_s, held, "
-    "last_sequence, checkpoint_sequence";
-
-Job read_job(const Statement& row, bool with_spec) {
-  Job j;
-  j.id = row.integer(0);
-  j.uid = row.text(1);
-  j.request_id = row.text(2);
-  j.title = row.text(3);
-  j.state = static_cast<State>(row.integer(4));
-  j.reason = static_cast<Reason>(row.integer(5));
-  j.message = row.text(6);
-  j.attempt = static_cast<int>(row.integer(7));
-  j.stalled_attempts = static_cast<int>(row.integer(8));
-  j.digest = row.text(9);
-  j.code_version = row.text(10);
-  j.created_ns = row.integer(11);
-  j.started_ns = row.integer(12);
-  j.ended_ns = row.integer(13);
-  j.updated_ns = row.integer(14);
-  j.progress = {static_cast<int>(row.integer(15)), static_cast<int>(row.integer(16)), row.real(17), row.real(18),
-                row.real(19), row.integer(20) != 0};
-  j.last_sequence = row.integer(21);
-  j.checkpoint_sequence = row.integer(22);
-  if (with_spec) j.spec = row.text(23);
-  return j;
-}
-
-std::optional<Job> find_job(Database& db, std::string_view column, const std::string& value) {
-  Statement query = db.prepare("SELECT " + std::string(job_columns) + ", spec FROM jobs WHERE " + std::string(column) + " = ?");
-  if (!query.bind(value).step()) return std::nullopt;
-  return read_job(query, true);
-}
-
-/// One guarded move with its event; false if the job was not in `from`.
-bool apply_move(Database& db, const std::string& uid, State from, State to, Reason reason, const std::string& message,
-                std::int64_t now) {
-  if (!may_move(from, to))
-    fail(ErrorCode::failed_precondition, "job {}: {} -> {} is no move", uid, to_string(from), to_string(to));
-  db.prepare("UPDATE jobs SET state = ?, reason = ?, message = ?, updated_ns = ?, ended_ns = ? WHERE uid = ? AND state = ?")
-      .bind(static_cast<int>(to), static_cast<int>(reason), message, now, is_terminal(to) ? now : std::int64_t{0}, uid,
-            static_cast<int>(from))
-      .run();
-  if (db.changes() == 0) return false;
-  if (from == State::running || from == State::cancelling)
-    db.prepare("UPDATE attempts SET ended_ns = ?, outcome = ? WHERE (job, attempt) = (SELECT id, attempt FROM jobs WHERE uid = ?)")
-        .bind(now, std::string(to_string(to)), uid)
-        .run();
-  std::string text(to_string(to));
-  if (reason != Reason::none) text += " " + std::string(to_string(reason));
-  if (!message.empty()) text += ": " + message;
-  rows::add_event(db, uid, "STATE", text, now);
-  return true;
-}
-
 class SqliteStore final : public JobStore {
  public:
   explicit SqliteStore(SqliteOptions o)
       : now_ns_(o.now_ns ? o.now_ns : system_now_ns),
         warn_(o.warn ? o.warn : [](const std::string&) {}),
-        lock_(o.path + ".lock"),
-        prepared_(prepare_file(o.path)),
-        readers_(o.path, std::max(1, o.readers)),
-        writer_(o.path, o.commit_interval, [this](const auto& uids) { publish(uids); }, warn_) {}
+        lock_(o.vfs.empty() ? std::make_unique<LockFile>(o.path + ".lock") : nullptr),
+        prepared_(prepare_file(o.path, o.vfs)),
+        readers_(o.path, o.vfs, std::max(1, o.readers)),
+        writer_({o.path, o.vfs, o.commit_interval, o.own_thread, o.publish_too_early}, [this](const auto& uids) { publish(uids); }, warn_) {}
 
   Created create(const NewJob& job) override { return create_limited(job, 0); }
 
   Created create_limited(const NewJob& job, int limit) override {
     Created out;
-    writer_.call([&](Database& db, std::set<std::string>& touched) {
-      if (auto known = find_job(db, "request_id", job.request_id)) {
-        out = {std::move(*known), true};
-        return;
-      }
-      if (limit > 0) {
-        Statement query = db.prepare("SELECT count(*) FROM (SELECT 1 FROM jobs WHERE state = 1 LIMIT ?)");
-        query.bind(limit);
-        if (query.step() && query.integer(0) >= limit)
-          fail(ErrorCode::resource_exhausted, "{} jobs are waiting, which is the limit; submit again later", limit);
-      }
-      const std::int64_t now = now_ns_();
-      db.prepare("INSERT INTO jobs (uid, request_id, title, state, digest, code_version, spec, created_ns, updated_ns) "
-                 "VALUES (?, ?, ?, 1, ?, ?, ?, ?, ?)")
-          .bind(job.uid, job.request_id, job.title, job.digest, job.code_version, Statement::Blob{job.spec}, now, now)
-          .run();
-      rows::add_event(db, job.uid, "STATE", "QUEUED", now);
-      out = {*find_job(db, "uid", job.uid), false};
-      touched.insert(job.uid);
+    change([&](Database& db, std::set<std::string>& touched) {
+      out = rows::create(db, job, limit, now_ns_());
+      if (!out.existed) touched.insert(job.uid);
     });
     return out;
   }
 
   std::optional<Job> find(const std::string& uid) const override {
-    return readers_.use([&](Database& db) { return find_job(db, "uid", uid); });
+    return readers_.use([&](Database& db) { return rows::find(db, uid); });
   }
-
   std::vector<Job> list(const ListQuery& query) const override {
-    std::string sql = "SELECT " + std::string(job_columns) + " FROM jobs WHERE id < ?";
-    std::vector<State> states = query.states;
-    std::sort(states.begin(), states.end());
-    states.erase(std::unique(states.begin(), states.end()), states.end());
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      sql += i == 0 ? " AND state IN (" : ", ";
-      sql += std::to_string(static_cast<int>(states[i]));
-    }
-    if (!states.empty()) sql += ")";
-    sql += " ORDER BY id DESC LIMIT ?";
-    return readers_.use([&](Database& db) {
-      std::vector<Job> out;
-      Statement rows = db.prepare(sql);
-      rows.bind(query.before_id > 0 ? query.before_id : std::int64_t{1} << 62, query.limit);
-      while (rows.step()) out.push_back(read_job(rows, false));
-      return out;
-    });
+    return readers_.use([&](Database& db) { return rows::list(db, query); });
   }
-
   std::optional<Job> take_next() override {
-    std::optional<Job> out;
-    writer_.call([&](Database& db, std::set<std::string>& touched) {
-      out.reset();
-      std::string uid;
-      {
-        Statement query = db.prepare("SELECT uid FROM jobs WHERE state = 1 ORDER BY id LIMIT 1");
-        if (!query.step()) return;
-        uid = query.text(0);
-      }
-      const std::int64_t now = now_ns_();
-      db.prepare("UPDATE jobs SET attempt = attempt + 1, attempt_sequence = last_sequence, started_ns = "
-                 "CASE started_ns WHEN 0 THEN ? ELSE started_ns END WHERE uid = ?")
-          .bind(now, uid)
-          .run();
-      db.prepare("INSERT INTO attempts (job, attempt, first_sequence, started_ns) "
-                 "SELECT id, attempt, last_sequence + 1, ? FROM jobs WHERE uid = ?")
-          .bind(now, uid)
-          .run();
-      apply_move(db, uid, State::queued, State::running, Reason::none, "", now);
-      out = find_job(db, "uid", uid);
-      touched.insert(uid);
-    });
-    return out;
+    return moved([&](Database& db) { return rows::take_next(db, now_ns_()); });
   }
-
   std::optional<Job> move(const std::string& uid, State from, State to, Reason reason,
                           const std::string& message) override {
-    std::optional<Job> out;
-    writer_.call([&](Database& db, std::set<std::string>& touched) {
-      out.reset();
-      rows::job_id(db, uid);
-      if (!apply_move(db, uid, from, to, reason, message, now_ns_())) return;
-      out = find_job(db, "uid", uid);
-      touched.insert(uid);
-    });
-    return out;
+    return moved([&](Database& db) { return rows::move(db, uid, from, to, reason, message, now_ns_()); });
   }
-
+  std::optional<Job> end_by_fault(const std::string& uid, Reason reason, const std::string& message,
+                                  int max_faults) override {
+    return moved([&](Database& db) { return rows::end_by_fault(db, uid, reason, message, max_faults, now_ns_()); });
+  }
   Recovery recover(int max_stalled) override {
     Recovery out;
-    writer_.call([&](Database& db, std::set<std::string>& touched) {
-      out = {};
-      struct Row {
-        std::string uid;
-        State state;
-        bool stalled;
-        int count;
-      };
-      std::vector<Row> found;
-      {
-        Statement query = db.prepare(
-            "SELECT uid, state, last_sequence <= attempt_sequence, stalled_attempts FROM jobs WHERE state IN (3, 4) ORDER BY id");
-        while (query.step())
-          found.push_back({query.text(0), static_cast<State>(query.integer(1)), query.integer(2) != 0,
-                           static_cast<int>(query.integer(3))});
-      }
-      const std::int64_t now = now_ns_();
-      for (const Row& row : found) {
-        touched.insert(row.uid);
-        const int stalled = row.stalled ? row.count + 1 : 0;
-        db.prepare("UPDATE jobs SET stalled_attempts = ? WHERE uid = ?").bind(stalled, row.uid).run();
-        if (row.state == State::cancelling) {
-          apply_move(db, row.uid, row.state, State::cancelled, Reason::user, "the server stopped while cancelling", now);
-          out.cancelled.push_back(row.uid);
-        } else if (stalled >= max_stalled) {
-          apply_move(db, row.uid, row.state, State::failed, Reason::worker_crash,
-                     "the server ended " + std::to_string(stalled) + " times in a row without a new sample of this job", now);
-          out.failed.push_back(row.uid);
-        } else {
-          rows::add_event(db, row.uid, "RECOVERED", "the server had ended during this attempt", now);
-          apply_move(db, row.uid, row.state, State::queued, Reason::server_restart, "", now);
-          out.requeued.push_back(row.uid);
-        }
-      }
+    change([&](Database& db, std::set<std::string>& touched) {
+      out = rows::recover(db, max_stalled, now_ns_());
+      for (const auto* list : {&out.requeued, &out.cancelled, &out.failed}) touched.insert(list->begin(), list->end());
     });
     return out;
   }
-
+  Job update(const std::string& uid, const JobUpdate& what) override {
+    return *moved([&](Database& db) { return std::optional(rows::update(db, uid, what, now_ns_())); });
+  }
+  Job adopt_history(const std::string& uid, const std::string& from, const Checkpoint& checkpoint) override {
+    return *moved([&](Database& db) { return std::optional(rows::adopt_history(db, uid, from, checkpoint, now_ns_())); });
+  }
+  std::vector<std::string> ended_before(std::int64_t time_ns, int limit) const override {
+    return readers_.use([&](Database& db) { return rows::ended_before(db, time_ns, limit); });
+  }
+  void prune(std::int64_t keep, std::int64_t deleted_before_ns) override {
+    change([&](Database& db, std::set<std::string>&) { rows::prune(db, keep, deleted_before_ns); });
+  }
+  std::vector<Change> changes(std::int64_t after, int limit) const override {
+    return readers_.use([&](Database& db) { return rows::changes(db, after, limit); });
+  }
+  ChangeRange change_range() const override {
+    return readers_.use([&](Database& db) { return rows::change_range(db); });
+  }
+  std::map<State, std::int64_t> counts() const override {
+    return readers_.use([&](Database& db) { return rows::counts(db); });
+  }
+  void add_audit(AuditRow row) override {
+    writer_.post([this, row = std::move(row)](Database& db, std::set<std::string>&) { rows::add_audit(db, row, now_ns_()); });
+  }
+  std::vector<AuditRow> audit(int limit) const override {
+    return readers_.use([&](Database& db) { return rows::audit(db, limit); });
+  }
   bool erase(const std::string& uid) override {
     bool erased = false;
-    writer_.call([&](Database& db, std::set<std::string>& touched) {
-      rows::job_id(db, uid);
-      db.prepare("DELETE FROM jobs WHERE uid = ? AND state IN (5, 6, 7)").bind(uid).run();
-      erased = db.changes() > 0;
+    change([&](Database& db, std::set<std::string>& touched) {
+      erased = rows::erase(db, uid, now_ns_());
       touched.insert(uid);
     });
     return erased;
@@ -310,6 +184,9 @@ class SqliteStore final : public JobStore {
       rows::add_samples(db, job, *fresh, now);
     });
   }
+  void add_run_time(const std::string& uid, std::int64_t ms) override {
+    post(uid, [ms](Database& db, const std::string& job, std::int64_t) { rows::add_run_time(db, job, ms); });
+  }
   void set_progress(const std::string& uid, const Progress& progress) override {
     post(uid, [progress](Database& db, const std::string& job, std::int64_t now) {
       rows::set_progress(db, job, progress, now);
@@ -336,12 +213,17 @@ class SqliteStore final : public JobStore {
     });
   }
   void flush() override { writer_.flush(); }
+  bool is_stuck() const override { return writer_.is_stuck(); }
 
   std::vector<Channel> channels(const std::string& uid) const override {
     return readers_.use([&](Database& db) { return rows::channels(db, uid); });
   }
   std::vector<Sample> samples(const std::string& uid, std::int64_t after, int limit) const override {
     return readers_.use([&](Database& db) { return rows::samples(db, uid, after, limit); });
+  }
+  std::vector<EnvelopePoint> envelope(const std::string& uid, std::int64_t after, std::int64_t until,
+                                      int max_points) const override {
+    return readers_.use([&](Database& db) { return rows::envelope(db, uid, after, until, max_points); });
   }
   std::vector<StageRow> stages(const std::string& uid) const override {
     return readers_.use([&](Database& db) { return rows::stages(db, uid); });
@@ -368,19 +250,42 @@ class SqliteStore final : public JobStore {
 
  private:
   /// Migrates and checks the file before any other connection opens it.
-  static bool prepare_file(const std::string& path) {
+  static bool prepare_file(const std::string& path, const std::string& vfs) {
     struct stat info {};
     const bool unclean = ::stat((path + "-wal").c_str(), &info) == 0 && info.st_size > 0;
-    Database db(path, Database::Role::writer);
+    Database db(path, Database::Role::writer, vfs);
     if (unclean) {
       Statement check = db.prepare("PRAGMA quick_check(1)");
       if (!check.step() || check.text(0) != "ok")
         fail(ErrorCode::data_loss, "{} is damaged: {}; restore a copy", path, check.text(0));
     }
+    // Before anything of an older file is changed there is a copy of it.
+    if (const int version = version_of(db); version > 0 && version < schema_version() && vfs.empty()) {
+      const std::string copy = path + ".schema" + std::to_string(version);
+      if (::stat(copy.c_str(), &info) != 0) {
+        db.copy_to(copy + ".part");
+        if (std::rename((copy + ".part").c_str(), copy.c_str()) != 0)
+          fail(ErrorCode::unavailable, "{}: {}", copy, std::strerror(errno));
+      }
+    }
     migrate(db);
     return true;
   }
 
+  template <class F>
+  void change(F f) {
+    writer_.call(std::move(f));
+  }
+  /// A change of one job; what it returns is the job as it is then, if it changed.
+  template <class F>
+  std::optional<Job> moved(F f) {
+    std::optional<Job> out;
+    change([&](Database& db, std::set<std::string>& touched) {
+      out = f(db);
+      if (out) touched.insert(out->uid);
+    });
+    return out;
+  }
   template <class F>
   void post(const std::string& uid, F f) {
     writer_.post([this, uid, f = std::move(f)](Database& db, std::set<std::string>& touched) {
@@ -397,7 +302,7 @@ class SqliteStore final : public JobStore {
 
   const std::function<std::int64_t()> now_ns_;
   const std::function<void(const std::string&)> warn_;
-  const LockFile lock_;
+  const std::unique_ptr<LockFile> lock_;
   const bool prepared_;
   mutable ReaderPool readers_;
   std::mutex waiting_mutex_;

@@ -19,6 +19,13 @@ struct SqliteOptions {
   int readers = 4;                                   ///< connections for reading
   std::function<std::int64_t()> now_ns;              ///< empty: the system's clock
   std::function<void(const std::string&)> warn;      ///< something a person should know
+  /// For simulations: another disk under SQLite (empty: the system's), and no thread of its own. Then what was
+  /// handed over becomes durable with the next call that waits; the lock file is left out.
+  std::string vfs;
+  bool own_thread = true;
+  /// Breaks the promise of the store on purpose: acknowledges and publishes before the commit. For the test of
+  /// the tests alone.
+  bool publish_too_early = false;
 };
 
 /// Throws Error: failed_precondition if another process has the data open, data_loss if the file is damaged,

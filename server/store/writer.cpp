@@ -13,12 +13,15 @@ constexpr int truncate_pages = 8000;  // 32 MiB: wait for readers and start the 
 
 }  // namespace
 
-Writer::Writer(const std::string& path, std::chrono::milliseconds interval, Committed committed, Warn warn)
-    : db_(path, Database::Role::writer),
-      interval_(interval),
+Writer::Writer(const Options& o, Committed committed, Warn warn)
+    : db_(o.path, Database::Role::writer, o.vfs),
+      interval_(o.interval),
+      own_thread_(o.own_thread),
+      publish_too_early_(o.publish_too_early),
       committed_(std::move(committed)),
-      warn_(std::move(warn)),
-      thread_([this] { loop(); }) {}
+      warn_(std::move(warn)) {
+  if (own_thread_) thread_ = std::thread([this] { loop(); });
+}
 
 Writer::~Writer() {
   {
@@ -26,8 +29,8 @@ Writer::~Writer() {
     stopping_ = true;
   }
   wake_.notify_all();
-  thread_.join();
-  db_.checkpoint(true);
+  if (thread_.joinable()) thread_.join();
+  if (own_thread_) db_.checkpoint(true);
 }
 
 void Writer::call(Change change) {
@@ -40,6 +43,7 @@ void Writer::call(Change change) {
     hurry_ = true;
   }
   wake_.notify_all();
+  if (!own_thread_) commit(tasks_);
   result.get();
 }
 
@@ -77,7 +81,21 @@ void Writer::loop() {
   }
 }
 
+void Writer::publish(std::deque<Task>& batch, const std::set<std::string>& touched,
+                     const std::vector<std::exception_ptr>& failures) {
+  // Listeners hear of it before the caller of call() goes on, so that they never lag behind an answer.
+  committed_(touched);
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    if (!batch[i].done) continue;
+    if (failures[i])
+      batch[i].done->set_exception(failures[i]);
+    else
+      batch[i].done->set_value();
+  }
+}
+
 bool Writer::commit(std::deque<Task>& batch) {
+  bool published = false;
   std::set<std::string> touched;
   std::vector<std::exception_ptr> failures(batch.size());
   const auto keep_posted = [&](const std::exception_ptr& why) {
@@ -107,6 +125,10 @@ bool Writer::commit(std::deque<Task>& batch) {
         if (!batch[i].done) warn_(std::string("a write was dropped: ") + error.what());
       }
     }
+    if (publish_too_early_) {
+      published = true;
+      publish(batch, touched, failures);
+    }
     db_.execute("COMMIT");
   } catch (const std::exception& error) {
     const auto why = std::current_exception();
@@ -116,18 +138,16 @@ bool Writer::commit(std::deque<Task>& batch) {
       // SQLite has rolled back by itself.
     }
     warn_(std::string("commit refused: ") + error.what());
+    if (published) {
+      batch.clear();
+      return true;
+    }
+    stuck_ = true;
     keep_posted(why);
     return batch.empty();
   }
-  // Listeners hear of it before the caller of call() goes on, so that they never lag behind an answer.
-  committed_(touched);
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    if (!batch[i].done) continue;
-    if (failures[i])
-      batch[i].done->set_exception(failures[i]);
-    else
-      batch[i].done->set_value();
-  }
+  stuck_ = false;
+  if (!published) publish(batch, touched, failures);
   batch.clear();
   if (db_.wal_pages() > passive_pages) db_.checkpoint(db_.wal_pages() > truncate_pages);
   return true;

@@ -3,9 +3,11 @@
 // transaction (group commit), so that many small writes cost one sync of the disk.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <functional>
 #include <future>
 #include <memory>
@@ -13,6 +15,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "server/store/database.hpp"
 
@@ -25,8 +28,14 @@ class Writer {
   using Committed = std::function<void(const std::set<std::string>& touched)>;
   using Warn = std::function<void(const std::string&)>;
 
-  /// `interval`: longest time a change of post() waits. `committed` is called after each commit.
-  Writer(const std::string& path, std::chrono::milliseconds interval, Committed committed, Warn warn);
+  struct Options {
+    std::string path, vfs;
+    std::chrono::milliseconds interval{250};  ///< longest time a change of post() waits
+    bool own_thread = true;                   ///< otherwise call() writes what waits, in the caller's thread
+    bool publish_too_early = false;           ///< see SqliteOptions
+  };
+  /// `committed` is called after each commit.
+  Writer(const Options& options, Committed committed, Warn warn);
   /// Commits what is waiting.
   ~Writer();
 
@@ -37,6 +46,8 @@ class Writer {
   void post(Change change);
   /// Returns when all that was posted before is durable.
   void flush();
+  /// The last commit was refused.
+  bool is_stuck() const { return stuck_; }
 
  private:
   struct Task {
@@ -45,9 +56,11 @@ class Writer {
   };
   void loop();
   bool commit(std::deque<Task>& batch);
+  void publish(std::deque<Task>& batch, const std::set<std::string>& touched, const std::vector<std::exception_ptr>& failures);
 
   Database db_;
   const std::chrono::milliseconds interval_;
+  const bool own_thread_, publish_too_early_;
   const Committed committed_;
   const Warn warn_;
   std::mutex mutex_;
@@ -56,6 +69,7 @@ class Writer {
   bool hurry_ = false;         // guarded by mutex_: someone waits
   bool stopping_ = false;      // guarded by mutex_
   std::chrono::steady_clock::time_point oldest_;  // guarded by mutex_: when the first task was queued
+  std::atomic<bool> stuck_{false};
   std::thread thread_;         // last: uses all of the above
 };
 

@@ -176,6 +176,36 @@ TEST_F(Programs, StopUnderLoadIsQuickAndLosesNothing) {
   EXPECT_EQ(job.attempt(), 2);
 }
 
+TEST_F(Programs, CommandsOfTheJobLife) {
+  start({"SEAWAY_FAKE_STEP_US=1000"});
+  ASSERT_EQ(seaway({"submit", small}).code, 0);
+  ASSERT_EQ(seaway({"submit", "--hold", "--label", "ship=dtmb", "--note", "later", "--priority", "3", small}).code, 0);
+  EXPECT_THAT(seaway({"list", "--state", "held", "--label", "ship=dtmb"}).output, HasSubstr("held"));
+  EXPECT_THAT(seaway({"label", "latest", "sweep=7", "ship-"}).output, HasSubstr("held"));
+  const Finished show = seaway({"show"});
+  EXPECT_THAT(show.output, HasSubstr("sweep=7"));
+  EXPECT_THAT(show.output, ::testing::Not(HasSubstr("ship=dtmb")));
+  EXPECT_THAT(show.output, HasSubstr("later"));
+  EXPECT_EQ(seaway({"note", "latest", "now"}).code, 0);
+  EXPECT_EQ(seaway({"priority", "latest", "9"}).code, 0);
+  EXPECT_EQ(seaway({"label", "latest", "nonsense"}).code, 2);
+  EXPECT_THAT(seaway({"release", "latest"}).output, HasSubstr("queued"));
+  EXPECT_THAT(seaway({"hold", "latest"}).output, HasSubstr("held"));
+  EXPECT_THAT(seaway({"kill", "latest"}).output, HasSubstr("cancelled"));
+  EXPECT_THAT(seaway({"retry", "latest"}).output, HasSubstr("queued"));
+  EXPECT_THAT(seaway({"events", "--once"}).output, HasSubstr("CREATED"));
+  EXPECT_THAT(seaway({"server", "--log-level", "debug"}).output, HasSubstr("log level  debug"));
+  EXPECT_EQ(seaway({"watch"}).code, 0);
+  const std::string data = folder_ / "data";
+  const Finished backup = run_program({build + "/tests/seaway_fake_daemon", "--data-dir", data, "backup", folder_ / "copy.db"});
+  EXPECT_EQ(backup.code, 0) << backup.output;
+  EXPECT_THAT(backup.output, HasSubstr("3 jobs"));
+  EXPECT_EQ(daemon_->terminate(), 0);
+  const Finished verify = run_program({build + "/tests/seaway_fake_daemon", "--data-dir", data, "verify"});
+  EXPECT_EQ(verify.code, 0) << verify.output;
+  EXPECT_THAT(verify.output, HasSubstr("0 problems"));
+}
+
 TEST_F(Programs, PythonExampleRuns) {
   start();
   const Finished python = run_program({"/usr/bin/python3", source + "/client/python/example.py", daemon_->address()},

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// kill: kill -9 of seawayd at random moments of a run. What was acknowledged and what a client has received
-// must survive, and the final history must be that of an unbroken run.
+// kill: kill -9 of seawayd and of its workers at random moments of runs, while others submit, cancel and wait in the
+// queue. What was acknowledged and what a client has received must survive, and the final history must be that of
+// an unbroken run.
+#include <signal.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -30,6 +36,39 @@ std::int64_t lost_lines(const std::string& seen, const std::string& stored) {
   return lost;
 }
 
+/// kill -9 of a worker that runs now; false if there is none.
+bool kill_worker(const std::string& data) {
+  for (const auto& lease : std::filesystem::directory_iterator(data + "/leases")) {
+    pid_t pid = 0;
+    std::ifstream(lease.path()) >> pid;
+    // The number may be of a worker that has just gone, but not of anything else: it is checked by its name.
+    const std::string name = testing::read_text("/proc/" + std::to_string(pid) + "/cmdline");
+    if (pid > 1 && name.find("attempt") != std::string::npos) return ::kill(pid, SIGKILL) == 0;
+  }
+  return false;
+}
+
+/// A submit whose answer may be lost: only an acknowledged one counts.
+class RacingSubmit {
+ public:
+  RacingSubmit(const std::string& address, v1::CreateJobRequest request)
+      : thread_([this, address, request = std::move(request)] {
+          try {
+            client::JobClient client(address);
+            name_ = client.create(request).job().name();
+          } catch (const client::ClientError&) {
+          }
+        }) {}
+  std::optional<std::string> wait() {
+    thread_.join();
+    return name_;
+  }
+
+ private:
+  std::optional<std::string> name_;
+  std::thread thread_;
+};
+
 }  // namespace
 
 std::vector<Line> kill(const Settings& s) {
@@ -53,7 +92,8 @@ std::vector<Line> kill(const Settings& s) {
       }
     }
   };
-  int done = 0;
+  std::vector<std::string> cancelled;  // acknowledged as such
+  int done = 0, workers = 0;
   std::int64_t samples_lost = 0;
   std::vector<std::string> histories;
   // A short case may end before all kills have hit it: then it runs again.
@@ -68,9 +108,21 @@ std::vector<Line> kill(const Settings& s) {
       while (witness.fraction() < moment && !witness.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
       std::this_thread::sleep_for(std::chrono::microseconds(random() % 100'000));
       if (witness.ended()) break;
-      submit();
-      daemon.kill();
-      daemon.start();
+      if (random() % 2 == 0 && kill_worker(folder / "data")) {
+        ++workers;
+      } else {
+        // Something is under way each time: a submit, a cancel, a job that is about to be taken.
+        submit();
+        RacingSubmit racing(daemon.address(), request_of(s.case_file));
+        if (random() % 2 == 0) {
+          client::JobClient client(daemon.address());
+          if (client.cancel(acknowledged.back()).state() == v1::Job::STATE_CANCELLED) cancelled.push_back(acknowledged.back());
+        }
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % 3000));
+        daemon.kill();
+        daemon.start();
+        if (auto name = racing.wait()) acknowledged.push_back(*name);
+      }
       ++done;
     }
     const std::string& seen = witness.wait();
@@ -94,13 +146,13 @@ std::vector<Line> kill(const Settings& s) {
       jobs_lost += error.status() == grpc::StatusCode::NOT_FOUND ? 1 : 0;
     }
   }
+  for (const std::string& name : cancelled) jobs_lost += client.get(name).state() != v1::Job::STATE_CANCELLED ? 1 : 0;
   daemon.terminate();
-  const auto unbroken = testing::run_program({s.seaway_run, s.case_file, "-o", folder / "unbroken", "-q", "--threads", std::to_string(s.threads)});
-  std::string expected = testing::read_text(folder / "unbroken/history.csv");
-  expected.erase(0, expected.find('\n') + 1);
-  std::fprintf(stderr, "kill: %d kills over %zu runs of %lld samples, %zu jobs acknowledged\n", done, histories.size(),
-               static_cast<long long>(count_lines(expected)), acknowledged.size());
-  if (unbroken.code != 0 || done < s.kills) throw std::runtime_error("kill: the run ended before it was killed often enough");
+  const std::string expected = unbroken_csv(s, folder.path());
+  std::fprintf(stderr, "kill: %d kills (%d of workers) over %zu runs of %lld samples, %zu jobs acknowledged, %zu cancelled\n",
+               done, workers, histories.size(), static_cast<long long>(count_lines(expected)), acknowledged.size(),
+               cancelled.size());
+  if (done < s.kills) throw std::runtime_error("kill: the run ended before it was killed often enough");
   const auto different = std::count_if(histories.begin(), histories.end(), [&](const auto& h) { return h != expected; });
   return {{"kill", "jobs_lost", static_cast<double>(jobs_lost), "1", 0, 0},
           {"kill", "samples_lost", static_cast<double>(samples_lost), "1", 0, 0},

@@ -30,39 +30,63 @@ struct Stream {
   }
 };
 
-double cpu_seconds(pid_t pid) {
-  const std::string stat = testing::read_text("/proc/" + std::to_string(pid) + "/stat");
-  unsigned long user = 0, system = 0;
-  std::sscanf(stat.c_str() + stat.rfind(')') + 1, " %*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu", &user, &system);
-  return static_cast<double>(user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
-}
-
-/// Gaps that `clients` watchers see until the run ends or `seconds` are over.
-int count_gaps(const std::string& address, const v1::Job& job, int clients, double seconds) {
+struct Watched {
   std::atomic<int> gaps{0};
+  double server_cores = 0, rss_mb = 0;
+  std::vector<double> latency_ms;  ///< of samples with a clock (SEAWAY_FAKE_CLOCK)
+};
+
+/// What `clients` watchers see until the run ends or `seconds` are over.
+void follow(const testing::Daemon& daemon, const v1::Job& job, int clients, double seconds, Watched& out) {
   std::atomic<bool> over{false};
   std::vector<std::unique_ptr<Stream>> streams;
-  for (int i = 0; i < clients; ++i) streams.push_back(std::make_unique<Stream>(own_channel(address), job.name()));
+  for (int i = 0; i < clients; ++i) streams.push_back(std::make_unique<Stream>(own_channel(daemon.address()), job.name()));
+  std::vector<std::vector<double>> latencies(streams.size());
   std::vector<std::jthread> threads;
-  std::atomic<int> left{clients};
-  for (auto& stream : streams)
-    threads.emplace_back([&, s = stream.get()] {
+  std::atomic<int> left{clients}, ready{0};
+  for (std::size_t i = 0; i < streams.size(); ++i)
+    threads.emplace_back([&, s = streams[i].get(), mine = &latencies[i]] {
       v1::WatchSamplesResponse m;
       std::int64_t last = 0;
+      int clock = -1;
       while (s->reader->Read(&m)) {
+        if (m.has_header()) {
+          if (last == 0 && clock < 0) ++ready;
+          for (int c = 0; c < m.header().channels_size(); ++c)
+            if (m.header().channels(c).name() == "clock") clock = c;
+        }
         if (!m.has_chunk()) continue;
-        if (m.chunk().first_sequence() != last + 1) ++gaps;
+        if (m.chunk().first_sequence() != last + 1) ++out.gaps;
         last = m.chunk().first_sequence() + m.chunk().times_s_size() - 1;
+        const double now = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+        if (clock >= 0)
+          for (const double written : m.chunk().columns(clock).values()) mine->push_back(1e3 * (now - written));
       }
       const auto status = s->reader->Finish();
-      if (!status.ok() && !over) ++gaps;  // cut off
+      if (!status.ok() && !over) ++out.gaps;  // cut off
       --left;
     });
-  const auto deadline = Clock::now() + std::chrono::duration<double>(seconds);
-  while (left > 0 && Clock::now() < deadline) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  while (ready < clients && left == clients) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const auto began = Clock::now();
+  const double cpu = cpu_seconds(daemon.process().pid());
+  const auto deadline = began + std::chrono::duration<double>(seconds);
+  while (left > 0 && Clock::now() < deadline) {
+    out.rss_mb = std::max(out.rss_mb, static_cast<double>(daemon.process().resident_bytes()) / 1e6);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  out.server_cores = (cpu_seconds(daemon.process().pid()) - cpu) / std::chrono::duration<double>(Clock::now() - began).count();
   over = true;
   for (auto& stream : streams) stream->context.TryCancel();
-  return gaps;
+  threads.clear();
+  for (const auto& mine : latencies) out.latency_ms.insert(out.latency_ms.end(), mine.begin(), mine.end());
+}
+
+void end_job(client::JobClient& client, const std::string& job) {
+  try {
+    client.kill(job);
+  } catch (const client::RpcError& error) {
+    if (error.status() != grpc::StatusCode::FAILED_PRECONDITION) throw;  // it has ended by itself
+  }
 }
 
 /// Growth of the server [MB] by connected clients that open a stream and stop reading it.
@@ -97,17 +121,70 @@ std::vector<Line> watch(const Settings& s) {
   daemon.start();
   client::JobClient client(daemon.address());
   const v1::Job job = client.create(request_of(s.case_file)).job();
-  const int gaps = count_gaps(daemon.address(), job, s.clients, s.seconds);
-  if (client.get(job.name()).state() == v1::Job::STATE_RUNNING) client.cancel(job.name());
+  Watched seen;
+  follow(daemon, job, s.clients, s.seconds, seen);
+  end_job(client, job.name());
   while (client.get(job.name()).state() < v1::Job::STATE_SUCCEEDED) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  const double watching_cpu = cpu_seconds(daemon.process().pid());
-  daemon.terminate();
-  daemon.start();  // so that nothing the watchers have left behind is used again
-  client.get(job.name());
-  const double stalled = stalled_cost(daemon, job.name(), s.clients);
   const double cpu = cpu_seconds(daemon.process().pid());
   daemon.terminate();
-  return {{"watch", "gaps", static_cast<double>(gaps), "1", 0, watching_cpu}, {"watch", "rss_mb", stalled, "MB", 5, cpu}};
+  std::vector<Line> out{{"watch", "gaps", static_cast<double>(seen.gaps), "1", 0, cpu},
+                        {"watch", "server_cores", seen.server_cores, "1", 0.6, cpu},
+                        {"watch", "rss_mb", seen.rss_mb, "MB", 150, cpu}};
+  if (!seen.latency_ms.empty()) {
+    auto middle = seen.latency_ms.begin() + static_cast<std::ptrdiff_t>(seen.latency_ms.size() / 2);
+    std::nth_element(seen.latency_ms.begin(), middle, seen.latency_ms.end());
+    out.push_back({"watch", "latency_p50_ms", *middle, "ms", 300, cpu});
+  }
+  return out;
+}
+
+std::vector<Line> slow_clients(const Settings& s) {
+  const testing::TempFolder folder;
+  testing::Daemon daemon(s.seawayd, folder.path(), {}, daemon_arguments(s, folder.path()));
+  daemon.start();
+  client::JobClient client(daemon.address());
+  const std::string job = client.create(request_of(s.case_file)).job().name();
+  while (client.get(job).latest_sequence() < 300) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  end_job(client, job);
+  daemon.terminate();
+  daemon.start();  // so that nothing that was used before is used again
+  client.get(job);
+  const double stalled = stalled_cost(daemon, job, 100);
+  const double cpu = cpu_seconds(daemon.process().pid());
+  daemon.terminate();
+  return {{"slow_clients", "rss_mb_per_100", stalled, "MB", 5, cpu}};
+}
+
+/// An hour at 50 Hz: only for a solver that makes 180000 samples in no time.
+std::vector<Line> catch_up(const Settings& s) {
+  const testing::TempFolder folder;
+  testing::Daemon daemon(s.seawayd, folder.path(), {}, daemon_arguments(s, folder.path()));
+  daemon.start();
+  client::JobClient client(daemon.address());
+  auto request = request_of(s.case_file);
+  auto& stages = *request.mutable_case_()->mutable_cascade()->mutable_stages();
+  const double dt = request.case_().time().dt_s();
+  for (auto& stage : stages) stage.mutable_end()->mutable_time()->set_duration_s(180'000 * dt / stages.size());
+  const std::string job = client.create(request).job().name();
+  while (client.get(job).state() < v1::Job::STATE_SUCCEEDED) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  if (client.get(job).latest_sequence() != 180'000) throw std::runtime_error("catch_up: the run has another number of samples");
+  std::int64_t last = 0;
+  const auto began = Clock::now();
+  client.watch(job, 0, [&](const v1::WatchSamplesResponse& m) {
+    if (m.has_chunk()) last = m.chunk().first_sequence() + m.chunk().times_s_size() - 1;
+    return last < 180'000;
+  });
+  const double took = std::chrono::duration<double>(Clock::now() - began).count();
+  v1::ReadEnvelopeRequest whole;
+  whole.set_job(job);
+  whole.set_max_points(2000);
+  const auto asked = Clock::now();
+  const int points = client.envelope(whole).times_s_size();
+  std::fprintf(stderr, "catch_up: the same as %d points in %.1f ms\n", points,
+               std::chrono::duration<double, std::milli>(Clock::now() - asked).count());
+  const double cpu = cpu_seconds(daemon.process().pid());
+  daemon.terminate();
+  return {{"watch", "catch_up_s", took, "s", 1, cpu}};
 }
 
 std::vector<Line> get_job(const Settings& s) {

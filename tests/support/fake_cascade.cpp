@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "tests/support/fake_fault.hpp"
 
 namespace seaway::testing {
 namespace {
@@ -62,12 +63,14 @@ class FakeRun {
  public:
   FakeRun(const FakeOptions& fake, const sim::Case& c, const sim::RunOptions& options, sim::RunObserver& observer,
           const RunContext& context)
-      : fake_(fake), case_(c), options_(options), observer_(observer), context_(context) {}
+      : fake_(fake), case_(c), options_(options), observer_(observer), context_(context), fault_(c.title, options.folder) {}
 
   sim::RunOutcome run() {
     resume();
-    observer_.on_channels({{"heave", "m"}, {"roll", "rad"}, {"sway", "m"}, {"force_z", "N/m"}, {"moment_x", "N"},
-                           {"water.volume", "m2"}});
+    std::vector<sim::Channel> channels{{"heave", "m"}, {"roll", "rad"}, {"sway", "m"}, {"force_z", "N/m"},
+                                       {"moment_x", "N"}, {"water.volume", "m2"}};
+    if (fake_.clock) channels.insert(channels.end(), {{"chaos", "1"}, {"clock", "s"}});
+    observer_.on_channels(channels);
     const bool diverges = case_.title.find("diverge") != std::string::npos;
     last_checkpoint_ = Clock::now();
     while (flow_.stage < static_cast<int>(case_.stages.size())) {
@@ -118,10 +121,11 @@ class FakeRun {
     if (fake_.step.count() > 0) std::this_thread::sleep_for(fake_.step);
     while (fake_.allowed_steps && fake_.allowed_steps->load() <= flow_.step && !context_.stop.stop_requested())
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return !context_.stop.stop_requested();
+    return !fault_.listens() || !context_.stop.stop_requested();
   }
 
   void advance() {
+    fault_.before(flow_.sequence + 1);
     ++flow_.step;
     ++flow_.step_in_stage;
     ++flow_.sequence;
@@ -131,8 +135,10 @@ class FakeRun {
     const double size = 1 + 0.1 / (1 + flow_.stage);
     const double heave = 0.02 * size * std::sin(phase) + 1e-4 * flow_.chaos + fake_.perturbation;
     const double roll = 0.15 * size * std::sin(phase - 0.8);
-    observer_.on_sample({flow_.sequence, flow_.stage, flow_.step, flow_.time,
-                         {heave, roll, 0.01 * std::cos(phase), 9.81 * 60 * heave, roll * 22, 5 + 1e-9 * flow_.chaos}});
+    std::vector<double> values{heave, roll, 0.01 * std::cos(phase), 9.81 * 60 * heave, roll * 22, 5 + 1e-9 * flow_.chaos};
+    if (fake_.clock)
+      values.insert(values.end(), {flow_.chaos, std::chrono::duration<double>(Clock::now().time_since_epoch()).count()});
+    observer_.on_sample({flow_.sequence, flow_.stage, flow_.step, flow_.time, std::move(values)});
     std::int64_t total = 0;
     std::int64_t done = flow_.step_in_stage;
     for (int i = 0; i < static_cast<int>(case_.stages.size()); ++i) {
@@ -210,6 +216,7 @@ class FakeRun {
   const sim::RunOptions& options_;
   sim::RunObserver& observer_;
   const RunContext& context_;
+  FakeFault fault_;
   Flow flow_;
   Clock::time_point last_checkpoint_;
   std::string newest_, before_;

@@ -21,14 +21,17 @@ class TestService {
   void start() {
     store = open_store(folder.path());
     store->recover(10);
-    pool = std::make_unique<jobs::WorkerPool>(jobs::PoolSettings{}, fake_solver(fake_), workspace, *store, quiet_context().log);
+    executor = jobs::make_thread_executor({}, fake_solver(fake_), workspace, *store, quiet_context().log);
+    pool = std::make_unique<jobs::WorkerPool>(jobs::PoolSettings{}, *executor, workspace, *store, quiet_context().log);
     queue = std::make_unique<jobs::Queue>(jobs::QueueLimits{}, fake_solver(fake_), workspace, *store, [this] { pool->wake(); },
-                                          [this](const std::string& uid) { pool->request_stop(uid); });
+                                          [this](const std::string& uid) { pool->request_stop(uid); },
+                                          [this](const std::string& uid) { pool->request_kill(uid); });
     server = std::make_unique<rpc::Server>(settings_, *queue, *store);
   }
   void stop() {
     server.reset();
     pool.reset();
+    executor.reset();
     queue.reset();
     store.reset();
   }
@@ -37,6 +40,7 @@ class TestService {
   TempFolder folder;
   jobs::Workspace workspace{folder.path()};
   std::unique_ptr<store::JobStore> store;
+  std::unique_ptr<jobs::Executor> executor;
   std::unique_ptr<jobs::WorkerPool> pool;
   std::unique_ptr<jobs::Queue> queue;
   std::unique_ptr<rpc::Server> server;

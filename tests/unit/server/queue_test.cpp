@@ -27,7 +27,9 @@ class QueueTest : public ::testing::Test {
     *allowed_ = steps;
     PoolSettings settings;
     settings.workers = workers;
-    pool_ = std::make_unique<WorkerPool>(settings, fake_solver(fake_), workspace_, *store_, quiet_context().log);
+    pool_.reset();
+    executor_ = make_thread_executor({}, fake_solver(fake_), workspace_, *store_, quiet_context().log);
+    pool_ = std::make_unique<WorkerPool>(settings, *executor_, workspace_, *store_, quiet_context().log);
   }
   std::string submit(int id, const v1::Case& m = small_case()) { return queue_.submit(create_request(id, m)).job.uid; }
   std::string why_refused(const v1::CreateJobRequest& request) {
@@ -44,9 +46,11 @@ class QueueTest : public ::testing::Test {
   std::unique_ptr<store::JobStore> store_ = seaway::testing::open_store(folder_.path());
   std::shared_ptr<std::atomic<std::int64_t>> allowed_ = std::make_shared<std::atomic<std::int64_t>>(0);
   FakeOptions fake_;
+  std::unique_ptr<Executor> executor_;
   std::unique_ptr<WorkerPool> pool_;
   Queue queue_{QueueLimits{3, 0}, fake_solver(), workspace_, *store_, [this] { if (pool_) pool_->wake(); },
-               [this](const std::string& uid) { if (pool_) pool_->request_stop(uid); }};
+               [this](const std::string& uid) { if (pool_) pool_->request_stop(uid); },
+               [this](const std::string& uid) { if (pool_) pool_->request_kill(uid); }};
 };
 
 constexpr std::int64_t no_limit = 1'000'000'000;

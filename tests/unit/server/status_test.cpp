@@ -51,11 +51,15 @@ TEST(Status, StaysSmallHoweverMuchIsWrong) {
 }
 
 TEST(Messages, PageTokensBelongToTheirFilter) {
-  const std::vector<store::State> running{store::State::running};
+  store::ListQuery running, labelled;
+  running.states = {store::State::running};
+  labelled.states = running.states;
+  labelled.labels = {{"ship", "dtmb"}};
   const std::string token = make_page_token(42, running);
   EXPECT_EQ(parse_page_token(token, running), 42);
   EXPECT_EQ(parse_page_token("", running), 0);
   EXPECT_THROW(parse_page_token(token, {}), convert::InputError);
+  EXPECT_THROW(parse_page_token(token, labelled), convert::InputError);
   for (const char* bad : {"x", "-", "1", "1-", "-1-0", "zz-0", "1-0x"}) EXPECT_THROW(parse_page_token(bad, {}), convert::InputError) << bad;
 }
 

@@ -211,6 +211,30 @@ TEST_P(JobStoreContract, AttemptsWithoutProgressAreBounded) {
   EXPECT_EQ(store_->find("a")->reason, Reason::worker_crash);
 }
 
+TEST_P(JobStoreContract, FaultsOfTheWorkerAreRetriedUntilTheyAreTooMany) {
+  store_->create(job("a"));
+  store_->take_next();
+  store_->add_samples("a", samples(1, 3));
+  EXPECT_EQ(store_->end_by_fault("a", Reason::worker_crash, "SIGSEGV", 2)->state, State::queued) << "1st, with progress";
+  EXPECT_FALSE(store_->end_by_fault("a", Reason::worker_crash, "late", 2)) << "it does not run";
+  store_->take_next();
+  store_->add_samples("a", samples(4, 4));
+  EXPECT_EQ(store_->end_by_fault("a", Reason::memory, "", 2)->faults, 1) << "new samples begin the count anew";
+  EXPECT_EQ(store_->take_next()->attempt, 3);
+  const auto failed = store_->end_by_fault("a", Reason::memory, "no more", 2);
+  EXPECT_EQ(failed->state, State::failed);
+  EXPECT_EQ(failed->reason, Reason::memory);
+  EXPECT_EQ(failed->message, "no more");
+  store_->create(job("b"));
+  store_->take_next();
+  store_->add_run_time("b", 1500);
+  store_->add_run_time("b", 20);
+  store_->move("b", State::running, State::cancelling, Reason::user, "");
+  const auto cancelled = store_->end_by_fault("b", Reason::worker_crash, "SIGSEGV", 2);
+  EXPECT_EQ(cancelled->state, State::cancelled) << "its user did not want it any more";
+  EXPECT_EQ(cancelled->run_ms, 1520);
+}
+
 TEST_P(JobStoreContract, KeepsStagesCheckpointsAndArtifacts) {
   store_->create(job("a"));
   store_->put_stage("a", {1, "one"});
