@@ -116,7 +116,7 @@ std::string stage_table(const google::protobuf::RepeatedPtrField<v1::StageReport
 std::string hydrostatics(const v1::Hydrostatics& h, int dimension) {
   const bool section = dimension == 2;
   const auto mm = [](double metres) { return number(1000 * metres, "%.1f mm"); };
-  return align({{"mass", number(h.mass(), "%.4g") + (section ? " kg/m" : " kg")},
+  std::vector<Row> rows{{"mass", number(h.mass(), "%.4g") + (section ? " kg/m" : " kg")},
                 {"displaced volume", number(h.displaced_volume(), "%.5g") + (section ? " m2" : " m3")},
                 {"draft", mm(h.draft_m())},
                 {"heel", number(h.heel_deg(), "%.2f deg")},
@@ -125,7 +125,13 @@ std::string hydrostatics(const v1::Hydrostatics& h, int dimension) {
                 {"GM", mm(h.gm_m())},
                 {"draft, intact", mm(h.intact_draft_m())},
                 {"GM, intact", mm(h.intact_gm_m())},
-                {"roll period, dry", number(h.natural_roll_period_dry_s(), "%.3f s")}});
+                {"roll period, dry", number(h.natural_roll_period_dry_s(), "%.3f s")}};
+  if (!section) {
+    rows.push_back({"trim, bow down", number(h.trim_deg(), "%.3f deg")});
+    rows.push_back({"LCB", mm(h.lcb_m())});
+    rows.push_back({"wetted surface", number(h.wetted_surface_m2(), "%.4g m2")});
+  }
+  return align(rows);
 }
 
 std::string cost(const google::protobuf::RepeatedPtrField<v1::StageEstimate>& stages) {

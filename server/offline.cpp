@@ -21,6 +21,7 @@
 #include "server/convert/input_error.hpp"
 #include "server/convert/result.hpp"
 #include "server/file_observer.hpp"
+#include "server/hull_command.hpp"
 #include "server/jobs/submission.hpp"
 
 namespace seaway::server {
@@ -42,18 +43,24 @@ struct Loaded {
   v1::CaseReport report;
 };
 
+/// Field problems come out as yaml::InputError with their lines.
+sim::Case read_core(const std::string& file, const v1::Case& message, const yaml::SourceMap& lines) {
+  try {
+    sim::Case core = convert::to_core(message);
+    core.folder = fs::absolute(file).parent_path().string();
+    return core;
+  } catch (const convert::InputError& error) {
+    std::vector<yaml::Problem> problems;
+    for (const auto& d : error.problems()) problems.push_back({lines.find(d.field), d.field, d.message, d.hint});
+    throw yaml::InputError(file, std::move(problems));
+  }
+}
+
 /// Reads and checks; field problems come out as yaml::InputError with their lines.
 Loaded load(const std::string& file, const jobs::Solver& solver) {
   Loaded out;
   out.lines = yaml::read_file(file, out.message);
-  try {
-    out.core = convert::to_core(out.message);
-  } catch (const convert::InputError& error) {
-    std::vector<yaml::Problem> problems;
-    for (const auto& d : error.problems()) problems.push_back({out.lines.find(d.field), d.field, d.message, d.hint});
-    throw yaml::InputError(file, std::move(problems));
-  }
-  out.core.folder = fs::absolute(file).parent_path().string();
+  out.core = read_core(file, out.message, out.lines);
   out.report = convert::to_proto(solver.check(out.core));
   return out;
 }
@@ -73,6 +80,18 @@ int check(const Options& o, const jobs::Solver& solver) {
   else
     print_report(loaded, stdout);
   return loaded.report.ok() ? 0 : 2;
+}
+
+bool is_case(const std::string& file) {
+  const std::string ending = fs::path(file).extension().string();
+  return ending == ".yaml" || ending == ".yml";
+}
+
+int hull(const Options& o, const HullOptions& options) {
+  if (!is_case(o.case_file)) return print_hull(case_of_hull_file(o.case_file, options), options);
+  v1::Case message;
+  const yaml::SourceMap lines = yaml::read_file(o.case_file, message);
+  return print_hull(read_core(o.case_file, message, lines), options);
 }
 
 /// As the service makes it, so that equal cases have equal digests.
@@ -208,6 +227,16 @@ int run_offline(int argc, char** argv, const jobs::Solver& solver) {
   CLI::App* checking = app.add_subcommand("check", "diagnostics, hydrostatics and cost of a case, without running it");
   checking->add_option("CASE", o.case_file, "case file (YAML)")->required();
   checking->add_flag("--json", o.json, "print the report as JSON");
+  HullOptions hull_options;
+  CLI::App* of_hull = app.add_subcommand("hull", "particulars, hydrostatics and stability of a ship; body plan and GZ curve");
+  of_hull->add_option("CASE_OR_FILE", o.case_file, "case (.yaml), table of half-breadths (.csv) or .stl")->required();
+  of_hull->add_flag("--json", hull_options.json, "print one JSON object instead of text");
+  of_hull->add_option("--out", hull_options.folder, "folder for body_plan.png, gz.png and their data");
+  of_hull->add_option("--scale", hull_options.scale, ".csv: all lengths are divided by it")->check(CLI::PositiveNumber);
+  of_hull->add_option("--unit", hull_options.unit, ".stl: metres in one unit of the file, for example 0.001");
+  of_hull->add_option("--amidships", hull_options.amidships, "x of amidships in the file's unit");
+  of_hull->add_option("--draft", hull_options.draft, "of a file [m]; a case has its own")->check(CLI::NonNegativeNumber);
+  of_hull->add_option("--kg", hull_options.kg, "of a file, with --draft: height of the centre of gravity [m]");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -218,6 +247,7 @@ int run_offline(int argc, char** argv, const jobs::Solver& solver) {
     return 2;
   }
   try {
+    if (of_hull->parsed()) return hull(o, hull_options);
     return checking->parsed() ? check(o, solver) : run(o, solver);
   } catch (const yaml::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());

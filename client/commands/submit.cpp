@@ -34,12 +34,14 @@ CaseInput read_case(const std::string& path) {
   in.lines = yaml::read_file(path, in.message);
   const v1::Hull& hull = in.message.hull();
   const bool whole = hull.has_offsets_hull();
-  const std::string& table = whole ? hull.offsets_hull().file() : hull.offsets_section().file();
+  const std::string& table = hull.has_stl() ? hull.stl().file()
+                             : whole        ? hull.offsets_hull().file()
+                                            : hull.offsets_section().file();
   if (table.empty()) return in;
   const auto place = std::filesystem::path(path).parent_path() / table;
   std::ifstream stream(place, std::ios::binary);
   if (!stream) {
-    const std::string field = whole ? "hull.offsets_hull.file" : "hull.offsets_section.file";
+    const std::string field = hull.has_stl() ? "hull.stl.file" : whole ? "hull.offsets_hull.file" : "hull.offsets_section.file";
     throw yaml::InputError(path, {{in.lines.find(field), field, place.string() + " cannot be opened", "the name is relative to the case file"}});
   }
   v1::CaseFile& file = *in.files.Add();

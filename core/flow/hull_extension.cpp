@@ -61,6 +61,10 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
   const HullWindow<Dim>& window = mask.window();
   const auto& theta = mask.fluid_fraction();
   const auto& phi = mask.now().phi;
+  const auto& spaces = mask.now().space;
+  const auto behind = [&](int at, int other) {  // another space's cell says nothing about this one
+    return !spaces.empty() && apart(spaces[static_cast<std::size_t>(at)], spaces[static_cast<std::size_t>(other)]);
+  };
   const auto around = neighbours<Dim>(window);
   // 0: known; 1, 2, ...: layers; -1: not reached.
   layer_.assign(window.size(), -1);
@@ -76,7 +80,7 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
     for (int a = Dim - 1; a >= 0; --a) {
       for (int side = -1; side <= 1; side += 2) {
         const auto beside = static_cast<std::size_t>(at + side * window.stride(a));
-        if (layer_[beside] != 0 || is_mixed(vof[beside]) || (vof[beside] > 0.5) == (c > 0.5)) continue;
+        if (layer_[beside] != 0 || behind(at, static_cast<int>(beside)) || is_mixed(vof[beside]) || (vof[beside] > 0.5) == (c > 0.5)) continue;
         const double outwards = c > 0.5 ? side : -side;  // from water to air
         plane.normal.fill(0);
         plane.normal[static_cast<std::size_t>(a)] = outwards;
@@ -86,6 +90,8 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
     }
     return false;
   };
+  front_.clear();  // cells that see water, but only above or below them
+  std::vector<double> seen;
   for (int layer = 1; layer <= extension_layers; ++layer) {
     list_.clear();
     next_.clear();
@@ -94,22 +100,26 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
       if (layer_[static_cast<std::size_t>(at)] != -1 || phi[static_cast<std::size_t>(at)] < -(layer + 2) * window.h().maxCoeff())
         return;
       const Vec<Dim> gradient = distance_gradient<Dim>(window, phi, at);
-      double planes = 0, plane_weight = 0, means = 0, mean_weight = 0;
+      double planes = 0, plane_weight = 0, means = 0, mean_weight = 0, level = 0, level_weight = 0;
       for (const bool only_visible : {true, false}) {
         for (const auto& n : around) {
           if (layer > 1 && n.distance > 1) continue;
           const int from = at + n.index;
           const int l = layer_[static_cast<std::size_t>(from)];
-          if (l < 0 || l >= layer || (only_visible && !visible<Dim>(window, n, gradient))) continue;
+          if (l < 0 || l >= layer || behind(at, from) || (only_visible && !visible<Dim>(window, n, gradient))) continue;
           const double c = vof[static_cast<std::size_t>(from)];
           means += c;
           mean_weight += 1;
+          if (n.at[Dim - 1] == 0) {
+            level += c;
+            level_weight += 1;
+          }
           bool inside = true;  // the plane needs the neighbour's own 3^Dim stencil
           for (int a = 0; a < Dim; ++a)
             inside = inside && i[a] + n.at[a] >= 1 && i[a] + n.at[a] < window.n()[a] - 1;
           if (layer > 1 || !inside) continue;
           Plane<Dim> plane;
-          if (is_mixed(c)) plane = interface_plane<Dim>(window, vof, from);
+          if (is_mixed(c)) plane = interface_plane<Dim>(window, vof, spaces, from);
           if (is_mixed(c) || sharp_plane(from, plane)) {
             for (int a = 0; a < Dim; ++a) plane.d += n.at[a] * plane.normal[static_cast<std::size_t>(a)];
             const double weight = n.distance == 1 ? 1.0 : 0.5;
@@ -121,13 +131,78 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
       }
       if (mean_weight == 0) return;
       list_.push_back(at);
-      next_.push_back(plane_weight > 0 ? planes / plane_weight : means / mean_weight);
+      double value = means / mean_weight;
+      if (plane_weight > 0) {
+        value = planes / plane_weight;
+      } else if (layer > 1 && level_weight > 0) {
+        value = level / level_weight;
+      } else if (layer == 1 && level_weight == 0 && value > 0.5) {
+        front_.push_back(at);
+        seen.push_back(value);
+      }
+      next_.push_back(value);
     });
     for (std::size_t k = 0; k < list_.size(); ++k) {
       vof[static_cast<std::size_t>(list_[k])] = next_[k];
       layer_[static_cast<std::size_t>(list_[k])] = static_cast<signed char>(layer);
     }
   }
+  level_off(mask, seen, vof);
+}
+
+/// Over water under a flat bottom or counter the extension found water, however high the cell lies. If the surface
+/// is near, it has to go on level from the hull's sides instead: values are carried along the rows of the cells in
+/// `front_` and what lies around them, and the lower of the two counts.
+template <int Dim>
+void HullExtension<Dim>::level_off(const HullMask<Dim>& mask, const std::vector<double>& seen,
+                                   std::vector<double>& vof) {
+  if (front_.empty()) return;
+  const HullWindow<Dim>& window = mask.window();
+  constexpr signed char waiting = 100;
+  std::vector<int> open = front_;
+  // Deeper layers were filled from the same cells.
+  for_box<Dim>(filled<Dim>(1), [&] {
+    IVec<Dim> upper = window.n();
+    for (int& u : upper) --u;
+    return upper;
+  }(), [&](const IVec<Dim>& i) {
+    const int at = window.at(i);
+    if (layer_[static_cast<std::size_t>(at)] > 1 && vof[static_cast<std::size_t>(at)] > 0.5) open.push_back(at);
+  });
+  std::vector<double> before;
+  before.reserve(open.size());
+  for (const int at : open) {
+    before.push_back(vof[static_cast<std::size_t>(at)]);
+    layer_[static_cast<std::size_t>(at)] = waiting;
+  }
+  std::vector<char> done(open.size(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    list_.clear();
+    next_.clear();
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      if (done[k]) continue;
+      double sum = 0;
+      int count = 0;
+      for (int a = 0; a + 1 < Dim; ++a)
+        for (const int step : {-window.stride(a), window.stride(a)}) {
+          const auto from = static_cast<std::size_t>(open[k] + step);
+          if (layer_[from] < 0 || layer_[from] == waiting) continue;
+          sum += vof[from];
+          ++count;
+        }
+      if (count == 0) continue;
+      done[k] = 1;
+      changed = true;
+      list_.push_back(open[k]);
+      next_.push_back(std::min(before[k], sum / count));
+    }
+    for (std::size_t k = 0; k < list_.size(); ++k) {
+      vof[static_cast<std::size_t>(list_[k])] = next_[k];
+      layer_[static_cast<std::size_t>(list_[k])] = 1;
+    }
+  }
+  (void)seen;
 }
 
 template <int Dim>
@@ -144,6 +219,23 @@ void HullExtension<Dim>::extend_velocity(const HullMask<Dim>& mask, int axis, co
   next_.clear();
   IVec<Dim> faces_upper = window.n();
   ++faces_upper[axis];
+  // Thin walls: a face belongs to the space of its cells; in a wall between two spaces it moves with the hull.
+  const auto& spaces = mask.half().space;
+  constexpr signed char in_wall = -2;
+  face_space_.assign(spaces.empty() ? 0 : window.size(), passage);
+  if (!spaces.empty()) {
+    for_box<Dim>(filled<Dim>(0), window.n(), [&](const IVec<Dim>& i) {
+      const auto at = static_cast<std::size_t>(window.at(i));
+      const signed char high = spaces[at];
+      const signed char low = i[axis] > 0 ? spaces[at - static_cast<std::size_t>(window.stride(axis))] : high;
+      face_space_[at] = apart(low, high) ? in_wall : std::max(low, high);
+      if (face_space_[at] == in_wall && aperture[at] <= 0) layer_[at] = -2;
+    });
+  }
+  const auto behind = [&](int at, int other) {
+    return !face_space_.empty() &&
+           apart(face_space_[static_cast<std::size_t>(at)], face_space_[static_cast<std::size_t>(other)]);
+  };
   for_box<Dim>(filled<Dim>(0), faces_upper, [&](const IVec<Dim>& i) {
     const int at = window.at(i);
     if (aperture[static_cast<std::size_t>(at)] > 0) layer_[static_cast<std::size_t>(at)] = 0;
@@ -157,7 +249,7 @@ void HullExtension<Dim>::extend_velocity(const HullMask<Dim>& mask, int axis, co
     int count = 0;
     for (const auto& n : around) {
       const auto from = static_cast<std::size_t>(at + n.index);
-      if (aperture[from] < 0.2) continue;
+      if (aperture[from] < 0.2 || behind(at, static_cast<int>(from))) continue;
       sum += u[from];
       largest = std::max(largest, std::abs(u[from]));
       ++count;
@@ -180,7 +272,8 @@ void HullExtension<Dim>::extend_velocity(const HullMask<Dim>& mask, int axis, co
       for (const bool only_visible : {true, false}) {
         for (const auto& n : around) {
           const auto from = static_cast<std::size_t>(at + n.index);
-          if (layer_[from] < 0 || layer_[from] >= layer || (only_visible && !visible<Dim>(window, n, gradient)))
+          if (layer_[from] < 0 || layer_[from] >= layer || behind(at, static_cast<int>(from)) ||
+              (only_visible && !visible<Dim>(window, n, gradient)))
             continue;
           sum += u[from];
           weight += 1;
@@ -198,7 +291,7 @@ void HullExtension<Dim>::extend_velocity(const HullMask<Dim>& mask, int axis, co
   }
   for_box<Dim>(filled<Dim>(0), faces_upper, [&](const IVec<Dim>& i) {
     const auto at = static_cast<std::size_t>(window.at(i));
-    if (layer_[at] != -1) return;
+    if (layer_[at] >= 0) return;
     u[at] = motion::velocity_at<Dim>(twist, mask.half().pose, window.face_centre(i, axis))[axis];
   });
 }

@@ -3,7 +3,7 @@
 //
 // A cell with less than half fluid, or a closed face, is "unknown" and gets its value from known neighbours
 // that it can see: those on the fluid side of it, (x_n - x_c) . grad(phi) > 0.3 h. Without that rule a rotated
-// wall of two cells leaks through diagonal neighbours.
+// wall of two cells leaks through diagonal neighbours. With Walls::thin nothing passes between spaces.
 #pragma once
 
 #include "core/flow/flow_state.hpp"
@@ -27,7 +27,9 @@ class HullExtension {
                        std::vector<double>& u);
 
  private:
-  std::vector<signed char> layer_;
+  void level_off(const HullMask<Dim>& mask, const std::vector<double>& seen, std::vector<double>& vof);
+
+  std::vector<signed char> layer_, face_space_;
   std::vector<double> next_;
   std::vector<int> front_, list_;
 };

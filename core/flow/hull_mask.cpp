@@ -10,8 +10,8 @@ using field::for_box;
 
 template <int Dim>
 HullMask<Dim>::HullMask(const Forest<Dim>& forest, std::shared_ptr<const hull::Hull<Dim>> hull,
-                        const motion::RigidBody<Dim>& body, int clearance)
-    : hull_(std::move(hull)), body_(body), window_(forest), clearance_(clearance) {}
+                        const motion::RigidBody<Dim>& body, int clearance, Walls walls)
+    : hull_(std::move(hull)), body_(body), window_(forest), clearance_(clearance), walls_(walls) {}
 
 template <int Dim>
 hull::OrientedBox<Dim> HullMask<Dim>::box_at(const HullGeometry<Dim>& g, const Vec<Dim>& centre) const {
@@ -102,7 +102,7 @@ void HullMask<Dim>::find_apertures(HullGeometry<Dim>& g, bool with_solid_faces) 
         }
         if (phi > far && !porous(g, x)) return;
         const auto box = box_at(g, x);
-        const hull::SolidPart<Dim> solid = patch.solid_part(box);
+        const hull::SolidPart<Dim> solid = closed_part(g, patch, box, i, axis);
         double open = 1 - solid.volume / volume;
         if (open < smallest_aperture) open = 0;
         if (open > 1) open = 1;
@@ -118,7 +118,9 @@ void HullMask<Dim>::find_apertures(HullGeometry<Dim>& g, bool with_solid_faces) 
           Vec<Dim> shift = Vec<Dim>::Zero();
           shift[axis] = 0.5 * window_.h()[axis];
           cell.centre += rotate.transpose() * shift;
-          solid_face_[a][at] = patch.solid_face_fraction(cell, axis, false);
+          if (is_wall(g, at, axis, i[axis] == 0)) solid_face_[a][at] = 1 - open;
+          else if (g.space.empty() || g.space[at] < 0) solid_face_[a][at] = patch.solid_face_fraction(cell, axis, false);
+          else solid_face_[a][at] = patch.outside_space_face_fraction(cell, axis, false, g.space[at]);
         }
       });
     });
@@ -144,7 +146,10 @@ void HullMask<Dim>::find_fluid_fractions() {
       }
       const Vec<Dim> x = window_.cell_centre(i);
       if (phi > clip_distance_ && !porous(now_, x)) return;
-      const double solid = patches_[static_cast<std::size_t>(t)]->solid_part(box_at(now_, x)).volume;
+      const auto& patch = *patches_[static_cast<std::size_t>(t)];
+      const signed char space = now_.space.empty() ? passage : now_.space[at];
+      const double solid = space < 0 ? patch.solid_part(box_at(now_, x)).volume
+                                     : patch.outside_space(box_at(now_, x), space).volume;
       const double fluid = 1 - solid / volume;
       theta_[at] = fluid < 1e-12 ? 0 : (fluid > 1 - 1e-12 ? 1 : fluid);
     });
@@ -185,13 +190,16 @@ void HullMask<Dim>::update(const motion::Pose<Dim>& now, const motion::Pose<Dim>
   // Half diagonal, and the table's interpolation error near corners.
   clip_distance_ = 0.5 * h.norm() + 0.25 * h.maxCoeff();
   sample_distance(now_);
+  if (walls_ == Walls::thin) find_spaces(now_);
   find_apertures(now_, false);
   find_fluid_fractions();
+  if (walls_ == Walls::thin) find_carried();
   if (same(now, half_step)) {
     half_ = now_;
     for (int axis = 0; axis < Dim; ++axis) solid_face_[static_cast<std::size_t>(axis)].assign(window_.size(), 0.0);
   } else {
     sample_distance(half_);
+    if (walls_ == Walls::thin) find_spaces(half_);
   }
   find_apertures(half_, true);
 }
@@ -211,7 +219,10 @@ double HullMask<Dim>::submerged_solid(const IVec<Dim>& cell, const std::array<do
   hull::HalfSpace<Dim> water;
   water.normal = rotate.transpose() * n_earth;
   water.d = constant - n_earth.dot(now_.pose.cog) + water.normal.dot(body_.cog);
-  return patches_[static_cast<std::size_t>(window_.tile_of(cell))]->solid_volume_below(box_at(now_, x), water);
+  const auto& patch = *patches_[static_cast<std::size_t>(window_.tile_of(cell))];
+  const signed char space = now_.space.empty() ? passage : now_.space[static_cast<std::size_t>(window_.at(cell))];
+  return space < 0 ? patch.solid_volume_below(box_at(now_, x), water)
+                   : patch.outside_space_below(box_at(now_, x), water, space);
 }
 
 template <int Dim>

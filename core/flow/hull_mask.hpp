@@ -2,10 +2,16 @@
 // the rigid body in the pressure solve. Apertures are the fluid part of the staggered control volumes
 // [batty2007], not of the faces: that makes the pressure force smooth in the hull's position and Archimedes'
 // law exact (docs/numerics.md, section "Hull").
+//
+// Walls thinner than two cells cannot be resolved by apertures. With Walls::thin every cell belongs to a connected
+// space (the sea, a compartment); apertures and fluid fractions count that space alone, and a face between cells
+// of different spaces is closed but for the openings in the wall. What a closed face cuts off from a space rides
+// with the hull: carried_weight() is its weight.
 #pragma once
 
 #include <memory>
 
+#include "core/flow/flow_state.hpp"
 #include "core/flow/hull_window.hpp"
 #include "core/hull/hull.hpp"
 #include "core/linear/poisson_operator.hpp"
@@ -16,6 +22,15 @@ namespace seaway::flow {
 /// Apertures below this are closed: the velocity in them is hardly constrained.
 inline constexpr double smallest_aperture = 0.005;
 
+/// How walls between spaces hold water: as solid that the cells resolve, or by the space of each cell.
+enum class Walls { resolved, thin };
+
+/// Space of a cell in an opening: joined to all others.
+inline constexpr signed char passage = -1;
+
+/// Whether a wall lies between two cells, by their spaces.
+inline bool apart(signed char a, signed char b) { return a != b && a >= 0 && b >= 0; }
+
 /// The hull at one pose, sampled on the window.
 template <int Dim>
 struct HullGeometry {
@@ -23,6 +38,7 @@ struct HullGeometry {
   std::vector<double> phi;                          ///< cells: signed distance, > 0 in fluid [m]
   std::array<std::vector<double>, Dim> aperture;    ///< faces: 0..1
   std::array<std::vector<Vec<Dim>>, Dim> arm;       ///< faces: centroid of the open part less the cog [m]
+  std::vector<signed char> space;                   ///< cells: 0 sea, 1 + compartment, passage; empty: Walls::resolved
 };
 
 template <int Dim>
@@ -30,7 +46,7 @@ class HullMask {
  public:
   /// `clearance`: width of the window around the hull's bounds, in finest cells.
   HullMask(const Forest<Dim>& forest, std::shared_ptr<const hull::Hull<Dim>> hull,
-           const motion::RigidBody<Dim>& body, int clearance = 6);
+           const motion::RigidBody<Dim>& body, int clearance = 6, Walls walls = Walls::resolved);
 
   /// Geometry at the pose of the new time and at the pose half a step later. Throws as HullWindow::cover.
   void update(const motion::Pose<Dim>& now, const motion::Pose<Dim>& half_step);
@@ -52,6 +68,10 @@ class HullMask {
   /// Rows J_c of the rigid body for a geometry (sum over the cell's faces, about the cog).
   linear::RigidRows<Dim> rigid_rows(const HullGeometry<Dim>& geometry) const;
 
+  /// Weight of the water and air that Walls::thin takes from the spaces, and its moment about the cog, at the new
+  /// time [N, N m; 2-D per metre]: with it Archimedes' law holds as for resolved walls. `vof`: window array.
+  motion::DofVector<Dim> carried_weight(const std::vector<double>& vof, const FluidProperties& fluids) const;
+
   /// Velocity of fluid and hull through full faces, w = a u + v_s(centre) - a v_s(open centroid), in the
   /// window; `u` and `w` are window arrays of the axis.
   void mixture_velocity(int axis, const motion::Twist<Dim>& twist, const std::vector<double>& u,
@@ -59,12 +79,21 @@ class HullMask {
 
   /// Connected space of a point in the earth frame: 0 sea, 1 + compartment.
   int space_at(const Vec<Dim>& x) const;
+  Walls walls() const { return walls_; }
+  /// Whether a face (entry of a geometry's arrays) is a wall between two spaces.
+  bool is_wall(const HullGeometry<Dim>& g, std::size_t at, int axis, bool first) const {
+    return !g.space.empty() && !first && apart(g.space[at], g.space[at - static_cast<std::size_t>(window_.stride(axis))]);
+  }
   const motion::RigidBody<Dim>& body() const { return body_; }
 
  private:
   void sample_distance(HullGeometry<Dim>& g) const;
   void find_apertures(HullGeometry<Dim>& g, bool with_solid_faces);
   void find_fluid_fractions();
+  void find_spaces(HullGeometry<Dim>& g) const;
+  hull::SolidPart<Dim> closed_part(const HullGeometry<Dim>& g, const hull::HullPatch<Dim>& patch,
+                                   const hull::OrientedBox<Dim>& box, const IVec<Dim>& face, int axis) const;
+  void find_carried();
   hull::OrientedBox<Dim> box_at(const HullGeometry<Dim>& g, const Vec<Dim>& centre) const;
   void make_patches(const HullGeometry<Dim>& g, std::vector<std::unique_ptr<hull::HullPatch<Dim>>>& out) const;
   bool porous(const HullGeometry<Dim>& g, const Vec<Dim>& x) const;
@@ -78,6 +107,14 @@ class HullMask {
   std::vector<double> theta_;
   std::array<std::vector<double>, Dim> solid_face_;
   std::vector<std::unique_ptr<hull::HullPatch<Dim>>> patches_;  ///< by tile, at the new pose
+  /// Fluid of a space that a closed vertical face cuts off from it.
+  struct Carried {
+    double volume = 0;                    ///< [m^Dim]
+    Vec<Dim> arm = Vec<Dim>::Zero();      ///< its centroid less the cog [m]
+    std::array<int, 2> cells{};           ///< window entries with its volume fraction
+  };
+  std::vector<Carried> carried_;
+  Walls walls_;
   bool moved_ = true;
   bool has_pose_ = false;
 };

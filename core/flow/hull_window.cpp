@@ -159,14 +159,36 @@ void HullWindow<Dim>::store_faces(const std::vector<double>& in, int axis, FaceF
 }
 
 template <int Dim>
-Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<double>& vof, int at) {
-  double stencil[Dim == 2 ? 9 : 27];
+Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<double>& vof,
+                           const std::vector<signed char>& spaces, int at) {
+  constexpr int entries = Dim == 2 ? 9 : 27, row = entries / 3;  // a row: the entries at one height
+  double stencil[entries];
+  bool behind[entries] = {};
+  bool any = false;
   int e = 0;
   for_box<Dim>(filled<Dim>(-1), filled<Dim>(2), [&](const IVec<Dim>& o) {
     int index = at;
     for (int a = 0; a < Dim; ++a) index += o[a] * window.stride(a);
-    stencil[e++] = vof[static_cast<std::size_t>(index)];
+    stencil[e] = vof[static_cast<std::size_t>(index)];
+    if (!spaces.empty()) {
+      const signed char own = spaces[static_cast<std::size_t>(at)], other = spaces[static_cast<std::size_t>(index)];
+      behind[e] = own != other && own >= 0 && other >= 0;
+      any = any || behind[e];
+    }
+    ++e;
   });
+  if (any) {
+    for (int height = 0; height < 3; ++height) {
+      double sum = 0;
+      int count = 0;
+      for (int k = height * row; k < (height + 1) * row; ++k)
+        if (!behind[k]) sum += stencil[k], ++count;
+      // Nothing of the own space at this height (a floor or a roof): as at the cell's own height.
+      const double mean = count > 0 ? sum / count : stencil[entries / 2];
+      for (int k = height * row; k < (height + 1) * row; ++k)
+        if (behind[k]) stencil[k] = mean;
+    }
+  }
   Plane<Dim> plane;
   plane.normal = interface_normal<Dim>(stencil);
   plane.d = plane_constant<Dim>(plane.normal, vof[static_cast<std::size_t>(at)]);
@@ -175,8 +197,10 @@ Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<doub
 
 template class HullWindow<2>;
 template class HullWindow<3>;
-template Plane<2> interface_plane<2>(const HullWindow<2>&, const std::vector<double>&, int);
-template Plane<3> interface_plane<3>(const HullWindow<3>&, const std::vector<double>&, int);
+template Plane<2> interface_plane<2>(const HullWindow<2>&, const std::vector<double>&,
+                                     const std::vector<signed char>&, int);
+template Plane<3> interface_plane<3>(const HullWindow<3>&, const std::vector<double>&,
+                                     const std::vector<signed char>&, int);
 #define SEAWAY_INSTANTIATE(T, D)                                                                     \
   template void HullWindow<D>::load_faces<T>(const FaceField<T, D>&, int, std::vector<double>&) const; \
   template void HullWindow<D>::store_faces<T>(const std::vector<double>&, int, FaceField<T, D>&) const;

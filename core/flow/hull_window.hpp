@@ -98,9 +98,11 @@ class HullWindow {
 };
 
 /// Plane of the interface in a mixed cell, from the volume fractions around it (window array). The cell
-/// must not lie on the window's edge.
+/// must not lie on the window's edge. With the spaces of cells (core/flow/hull_mask.hpp; may be empty) what lies
+/// behind a wall counts as the mean of the cells of the own space at the same height.
 template <int Dim>
-Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<double>& vof, int at);
+Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<double>& vof,
+                           const std::vector<signed char>& spaces, int at);
 
 extern template class HullWindow<2>;
 extern template class HullWindow<3>;

@@ -13,7 +13,13 @@ using field::for_box;
 namespace {
 
 /// Part of the reservoirs that goes back to the flow in a second.
-constexpr double release_rate = 25.0;
+constexpr double release_rate = 100.0;
+
+/// Cells with less fluid get their volume fraction from their neighbours each step: nothing stays in them.
+constexpr double smallest_taker = 0.5;
+
+/// A space with less water than so many cells is dry.
+constexpr double least_wet_cells = 10;
 
 template <int Dim>
 bool on_edge(const HullWindow<Dim>& window, const IVec<Dim>& i, int margin) {
@@ -35,7 +41,7 @@ double VolumeBook<Dim>::visible_in(const HullMask<Dim>& mask, const IVec<Dim>& i
   if (theta >= 1) return c * volume;
   if (theta <= 0 || c <= mixed_limit) return 0;
   if (c >= 1 - mixed_limit || on_edge<Dim>(window, i, 1)) return c * theta * volume;
-  const Plane<Dim> plane = interface_plane<Dim>(window, vof, at);
+  const Plane<Dim> plane = interface_plane<Dim>(window, vof, mask.now().space, at);
   return std::max(0.0, c * volume - mask.submerged_solid(i, plane.normal, plane.d));
 }
 
@@ -61,6 +67,7 @@ void VolumeBook<Dim>::begin_step(const HullMask<Dim>& mask, const FlowState<Dim>
     mask.window().load_faces(state.w, axis, w_[static_cast<std::size_t>(axis)]);
     swept_[static_cast<std::size_t>(axis)].assign(mask.window().size(), 0.0);
   }
+  if (mask.walls() == Walls::thin) mask.window().load_cells(state.vof, start_vof_);
 }
 
 template <int Dim>
@@ -106,14 +113,38 @@ void VolumeBook<Dim>::close_fluxes(const HullMask<Dim>& mask, const CellField<do
         volume -= (side == 0 ? -1.0 : 1.0) * passed * window.face_area(axis);
       }
     }
-    book_[window.global_cell(i)] = volume;
+    book_[window.global_cell(i)] = {volume, mask.walls() == Walls::thin ? space_of(mask, i) : -1};
   });
+}
+
+template <int Dim>
+void VolumeBook<Dim>::undo_wall_fluxes(const HullMask<Dim>& mask, CellField<double, Dim>& vof, double dt) {
+  if (mask.walls() != Walls::thin) return;
+  const HullWindow<Dim>& window = mask.window();
+  window.load_cells(vof, loaded_);
+  std::vector<double> fixed = loaded_;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const auto ax = static_cast<std::size_t>(axis);
+    const auto stride = static_cast<std::size_t>(window.stride(axis));
+    const auto& aperture = mask.half().aperture[ax];
+    window.for_cells([&](const IVec<Dim>& i) {
+      const auto at = static_cast<std::size_t>(window.at(i));
+      if (aperture[at] > 0 || !mask.is_wall(mask.half(), at, axis, i[axis] == 0)) return;
+      const double passed = swept_[ax][at] / window.h()[axis], volume = dt * w_[ax][at] / window.h()[axis];
+      fixed[at] -= passed - volume * start_vof_[at];
+      fixed[at - stride] += passed - volume * start_vof_[at - stride];
+    });
+  }
+  for (std::size_t k = 0; k < fixed.size(); ++k)
+    if (fixed[k] != loaded_[k]) fixed[k] = std::clamp(fixed[k], 0.0, 1.0);
+  window.store_cells(fixed, vof);
 }
 
 template <int Dim>
 int VolumeBook<Dim>::space_of(const HullMask<Dim>& mask, const IVec<Dim>& i) const {
   const HullWindow<Dim>& window = mask.window();
   const int at = window.at(i);
+  if (mask.walls() == Walls::thin) return std::max<int>(0, mask.now().space[static_cast<std::size_t>(at)]);
   const auto& phi = mask.now().phi;
   Vec<Dim> x = window.cell_centre(i), g;
   for (int a = 0; a < Dim; ++a) {
@@ -126,12 +157,12 @@ int VolumeBook<Dim>::space_of(const HullMask<Dim>& mask, const IVec<Dim>& i) con
 }
 
 template <int Dim>
-double VolumeBook<Dim>::give(const HullMask<Dim>& mask, const IVec<Dim>& i, double defect,
+double VolumeBook<Dim>::give(const HullMask<Dim>& mask, const IVec<Dim>& i, int space, double defect,
                              std::vector<double>& vof) const {
   const HullWindow<Dim>& window = mask.window();
   const auto& theta = mask.fluid_fraction();
   const double volume = window.cell_volume();
-  const int space = space_of(mask, i);
+  const bool thin = mask.walls() == Walls::thin;
   std::vector<std::pair<std::size_t, double>> takers;
   double weights = 0;
   for_box<Dim>(filled<Dim>(-2), filled<Dim>(3), [&](const IVec<Dim>& o) {
@@ -140,7 +171,8 @@ double VolumeBook<Dim>::give(const HullMask<Dim>& mask, const IVec<Dim>& i, doub
     if (on_edge<Dim>(window, j, 2)) return;
     const auto at = static_cast<std::size_t>(window.at(j));
     const double c = vof[at];
-    if (theta[at] < 1 || !is_mixed(c) || mask.space_at(window.cell_centre(j)) != space) return;
+    if (theta[at] < 1 || !is_mixed(c)) return;
+    if ((thin ? space_of(mask, j) : mask.space_at(window.cell_centre(j))) != space) return;
     takers.emplace_back(at, c * (1 - c));
     weights += c * (1 - c);
   });
@@ -157,25 +189,50 @@ template <int Dim>
 void VolumeBook<Dim>::release(const HullMask<Dim>& mask, std::vector<double>& vof, double dt) {
   const HullWindow<Dim>& window = mask.window();
   const auto& theta = mask.fluid_fraction();
-  const double part = 1 - std::exp(-release_rate * dt);
+  const bool thin = mask.walls() == Walls::thin;
+  const double volume = window.cell_volume(), part = 1 - std::exp(-release_rate * dt);
+  struct Taker {
+    std::size_t at;
+    double weight;
+  };
   for (auto& [space, owed] : reservoir_) {
-    if (std::abs(owed) < 1e-15 * window.cell_volume()) continue;
-    std::vector<std::pair<std::size_t, double>> takers;
+    if (std::abs(owed) < 1e-15 * volume) continue;
+    std::vector<Taker> takers;
     double weights = 0;
     window.for_cells([&](const IVec<Dim>& i) {
       const auto at = static_cast<std::size_t>(window.at(i));
       const double c = vof[at];
       if (theta[at] < 1 || !is_mixed(c) || on_edge<Dim>(window, i, 2)) return;
-      if (mask.space_at(window.cell_centre(i)) != space) return;
-      takers.emplace_back(at, c * (1 - c));
+      if ((thin ? space_of(mask, i) : mask.space_at(window.cell_centre(i))) != space) return;
+      takers.push_back({at, c * (1 - c)});
       weights += c * (1 - c);
     });
     const double amount = part * owed;
-    for (const auto& [at, weight] : takers) {
-      const double before = vof[at];
-      vof[at] = std::clamp(before + amount * weight / weights / window.cell_volume(), 0.0, 1.0);
-      owed -= (vof[at] - before) * window.cell_volume();
+    double left = amount;
+    for (const Taker& t : takers) {
+      const double before = vof[t.at];
+      vof[t.at] = std::clamp(before + amount * t.weight / weights / volume, 0.0, 1.0);
+      left -= (vof[t.at] - before) * volume;
     }
+    owed -= amount - left;
+    if (std::abs(left) < 1e-3 * std::abs(amount)) continue;
+    // No surface away from the walls: cells that the walls cut. What they show then is settled by the caller.
+    takers.clear();
+    weights = 0;
+    double wet = 0;  // cells of water
+    window.for_cells([&](const IVec<Dim>& i) {
+      const auto at = static_cast<std::size_t>(window.at(i));
+      const double c = vof[at];
+      if (theta[at] < smallest_taker || !(c > 0) || on_edge<Dim>(window, i, 2) || space_of(mask, i) != space) return;
+      wet += theta[at] * c;
+      if (theta[at] >= 1 || !is_mixed(c)) return;
+      takers.push_back({at, theta[at] * c * (1 - c)});
+      weights += takers.back().weight;
+    });
+    // What a dry space is owed are errors at its walls, not water.
+    if (left > 0 && wet < least_wet_cells) continue;
+    for (const Taker& t : takers)
+      vof[t.at] = std::clamp(vof[t.at] + left * t.weight / weights / (theta[t.at] * volume), 0.0, 1.0);
   }
 }
 
@@ -186,21 +243,34 @@ void VolumeBook<Dim>::settle(const HullMask<Dim>& mask, const std::vector<double
   const auto& theta = mask.fluid_fraction();
   last_defect_ = 0;
   // All defects first: what one cell gives must not change what the next one sees.
-  std::vector<std::pair<IVec<Dim>, double>> defects, cut;
+  struct Defect {
+    IVec<Dim> cell;
+    int space;
+    double volume;
+  };
+  std::vector<Defect> defects;
+  std::vector<std::pair<IVec<Dim>, double>> cut;
   window.for_cells([&](const IVec<Dim>& i) {
     const auto at = static_cast<std::size_t>(window.at(i));
     const auto entry = book_.find(window.global_cell(i));
     if (entry == book_.end() && theta[at] >= 1) return;
-    const double wanted = entry != book_.end() ? entry->second : advected[at] * window.cell_volume();
+    const double wanted = entry != book_.end() ? entry->second.volume : advected[at] * window.cell_volume();
     const double seen = visible_in(mask, i, vof);
-    if (wanted != seen) defects.emplace_back(i, wanted - seen);
+    const int space = space_of(mask, i);
+    const int before = entry != book_.end() && entry->second.space >= 0 ? entry->second.space : space;
+    if (before != space) {  // a wall has passed the cell's middle: it now shows another space's water
+      if (wanted != 0) defects.push_back({i, before, wanted});
+      if (seen != 0) defects.push_back({i, space, -seen});
+    } else if (wanted != seen) {
+      defects.push_back({i, space, wanted - seen});
+    }
     if (theta[at] < 1) cut.emplace_back(i, seen);
   });
-  for (const auto& [i, defect] : defects) {
+  for (const auto& [i, space, defect] : defects) {
     last_defect_ += std::abs(defect);
     if (!correct) continue;
-    const double left = give(mask, i, defect, vof);
-    if (left != 0) reservoir_[space_of(mask, i)] += left;
+    const double left = give(mask, i, space, defect, vof);
+    if (left != 0) reservoir_[space] += left;
   }
   if (correct) release(mask, vof, dt);
   measure(mask, vof);

@@ -30,6 +30,9 @@ class VolumeBook {
   /// `twist` is the one in w, `dt` the whole step.
   void close_fluxes(const HullMask<Dim>& mask, const CellField<double, Dim>& vof,
                     const motion::Twist<Dim>& twist, double dt);
+  /// Walls::thin, after close_fluxes: a wall that moves through the mesh has carried the other space's volume
+  /// fractions into the cells beside it; takes that back (the book has the water).
+  void undo_wall_fluxes(const HullMask<Dim>& mask, CellField<double, Dim>& vof, double dt);
   /// With the new geometry: moves water so that the book holds. `advected` is vof before the extension into
   /// the hull, `vof` after it; both window arrays. Changes wholly fluid mixed cells only.
   void settle(const HullMask<Dim>& mask, const std::vector<double>& advected, std::vector<double>& vof,
@@ -48,13 +51,18 @@ class VolumeBook {
   double visible_in(const HullMask<Dim>& mask, const IVec<Dim>& i, const std::vector<double>& vof) const;
   void measure(const HullMask<Dim>& mask, const std::vector<double>& vof);
   int space_of(const HullMask<Dim>& mask, const IVec<Dim>& i) const;
-  double give(const HullMask<Dim>& mask, const IVec<Dim>& i, double defect, std::vector<double>& vof) const;
+  double give(const HullMask<Dim>& mask, const IVec<Dim>& i, int space, double defect, std::vector<double>& vof) const;
   void release(const HullMask<Dim>& mask, std::vector<double>& vof, double dt);
 
   std::vector<double> visible_;
   std::array<std::vector<double>, Dim> w_, swept_;
   std::vector<double> loaded_;
-  std::unordered_map<std::int64_t, double> book_;  ///< by global cell; only looked up, never iterated
+  struct Entry {
+    double volume = 0;  ///< [m^Dim]
+    int space = -1;     ///< Walls::thin: of the cell when the book was closed
+  };
+  std::unordered_map<std::int64_t, Entry> book_;  ///< by global cell; only looked up, never iterated
+  std::vector<double> start_vof_;                 ///< Walls::thin: window, before the step's advection
   std::map<int, double> reservoir_;
   double last_defect_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.hpp"
 
@@ -10,9 +11,136 @@ namespace seaway::hull {
 namespace {
 
 constexpr double most_nodes = 2.5e7;
-constexpr int brick = 4;  // nodes along an edge of the group that shares its list of triangles
 
 }  // namespace
+
+/// Bricks of nodes are halved down to single ones; each hands down only the triangles that are not
+/// farther from its middle than the nearest one by its size.
+class DistanceGrid::Filler {
+ public:
+  Filler(DistanceGrid& grid, const SurfaceTree& walls) : g_(grid), walls_(walls) {}
+
+  void run() {
+    double limit = 1e300;  // from the brick before: the next one cannot be much farther
+    for (int k = 0; k < g_.n_[2]; k += largest)
+      for (int j = 0; j < g_.n_[1]; j += largest)
+        for (int i = 0; i < g_.n_[0]; i += largest) {
+          const Brick brick = brick_at(i, j, k, largest);
+          const double nearest = walls_.distance(brick.middle, i == 0 ? 1e300 : limit);
+          limit = 1.0001 * (nearest + largest * g_.spacing_);
+          if (nearest > g_.margin_ + brick.reach) {
+            fill_far(brick, nearest);
+            continue;
+          }
+          auto& list = lists_[0];
+          list.clear();
+          walls_.find_in_column({brick.middle, Vec3::Constant(nearest + 2 * brick.reach),
+                                 Eigen::Matrix3d::Identity()},
+                                -1, list);
+          squares_[0].assign(list.size(), 0.0);
+          split(brick, 0, brick.middle);
+        }
+  }
+
+ private:
+  static constexpr int largest = 16, n_levels = 6;
+  struct Brick {
+    int i, j, k, size;
+    Vec3 middle;
+    double reach;  ///< from the middle to its corner nodes
+  };
+  Brick brick_at(int i, int j, int k, int size) const {
+    const double half = 0.5 * (size - 1);
+    return {i,
+            j,
+            k,
+            size,
+            g_.node(i, j, k) + Vec3::Constant(half * g_.spacing_),
+            std::sqrt(3.0) * half * g_.spacing_};
+  }
+  float& at(int i, int j, int k) {
+    return g_.nodes_[static_cast<std::size_t>(k) * g_.step_z_ +
+                     static_cast<std::size_t>(j) * g_.step_y_ + static_cast<std::size_t>(i)];
+  }
+  void fill_far(const Brick& b, double nearest) {
+    for (int k = b.k; k < std::min(b.k + b.size, g_.n_[2]); ++k)
+      for (int j = b.j; j < std::min(b.j + b.size, g_.n_[1]); ++j)
+        for (int i = b.i; i < std::min(b.i + b.size, g_.n_[0]); ++i)
+          at(i, j, k) = static_cast<float>(nearest - (g_.node(i, j, k) - b.middle).norm());
+  }
+  double distance2(int triangle, const Vec3& x) const {
+    const Surface& s = walls_.surface();
+    const auto& t = s.triangles[triangle];
+    return squared_distance_to_triangle(x, s.vertices[t[0]], s.vertices[t[1]], s.vertices[t[2]]);
+  }
+  /// The nodes of a brick of two a side; squares_[level] are from its middle.
+  void fill_last(const Brick& b, int level) {
+    const auto& list = lists_[static_cast<std::size_t>(level)];
+    const auto& d2 = squares_[static_cast<std::size_t>(level)];
+    for (int c = 0; c < 8; ++c) {
+      const int i = b.i + (c & 1), j = b.j + ((c >> 1) & 1), k = b.k + (c >> 2);
+      if (i >= g_.n_[0] || j >= g_.n_[1] || k >= g_.n_[2]) continue;
+      const Vec3 x = g_.node(i, j, k);
+      double best = distance2(list[0], x);
+      double reach = std::sqrt(best) + b.reach, reach2 = reach * reach;
+      for (std::size_t n = 1; n < list.size(); ++n) {
+        if (d2[n] >= reach2) continue;  // then it is farther from the node than `best`
+        const double d = distance2(list[n], x);
+        if (d >= best) continue;
+        best = d;
+        reach = std::sqrt(best) + b.reach;
+        reach2 = reach * reach;
+      }
+      at(i, j, k) = static_cast<float>(std::sqrt(best));
+    }
+  }
+  /// Of the triangles lists_[level], with their squares_[level] from `parent`, hands on those that
+  /// can be nearest somewhere in the brick.
+  void split(const Brick& b, int level, const Vec3& parent) {
+    const auto l = static_cast<std::size_t>(level);
+    const double slack = (b.middle - parent).norm() + 2 * b.reach;
+    auto& next = lists_[l + 1];
+    auto& next_d2 = squares_[l + 1];
+    next.clear();
+    next_d2.clear();
+    double least = std::numeric_limits<double>::infinity(), bound2 = least;
+    for (std::size_t n = 0; n < lists_[l].size(); ++n) {
+      if (squares_[l][n] > bound2) continue;
+      const double d2 = distance2(lists_[l][n], b.middle);
+      next.push_back(lists_[l][n]);
+      next_d2.push_back(d2);
+      if (d2 >= least) continue;
+      least = d2;
+      bound2 = (std::sqrt(least) + slack) * (std::sqrt(least) + slack);
+      std::swap(next.front(), next.back());  // the nearest first
+      std::swap(next_d2.front(), next_d2.back());
+    }
+    const double nearest = std::sqrt(least);
+    if (nearest > g_.margin_ + b.reach) return fill_far(b, nearest);
+    const double within = (nearest + 2 * b.reach) * (nearest + 2 * b.reach);
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < next.size(); ++n) {
+      if (next_d2[n] > within) continue;
+      next[kept] = next[n];
+      next_d2[kept++] = next_d2[n];
+    }
+    next.resize(kept);
+    next_d2.resize(kept);
+    if (b.size == 2) return fill_last(b, level + 1);
+    const int half = b.size / 2;
+    for (int c = 0; c < 8; ++c) {
+      const int i = b.i + (c & 1) * half, j = b.j + ((c >> 1) & 1) * half,
+                k = b.k + (c >> 2) * half;
+      if (i < g_.n_[0] && j < g_.n_[1] && k < g_.n_[2])
+        split(brick_at(i, j, k, half), level + 1, b.middle);
+    }
+  }
+
+  DistanceGrid& g_;
+  const SurfaceTree& walls_;
+  std::vector<int> lists_[n_levels];
+  std::vector<double> squares_[n_levels];
+};
 
 double DistanceGrid::finest_spacing(const Box<3>& bounds, double margin) {
   const Vec3 size = bounds.upper - bounds.lower + Vec3::Constant(2 * margin);
@@ -42,74 +170,11 @@ DistanceGrid::DistanceGrid(const SurfaceTree& walls, double spacing, double marg
   step_y_ = static_cast<std::size_t>(n_[0]);
   step_z_ = step_y_ * static_cast<std::size_t>(n_[1]);
   nodes_.resize(step_z_ * static_cast<std::size_t>(n_[2]));
-  fill_distances(walls);
+  Filler(*this, walls).run();
   bool ok = false;  // grid lines through edges of triangles may miscount: move them a little
   for (int i = 1; i < 20 && !ok; ++i)
     ok = set_signs(walls.surface(), 1.3e-7 * i * spacing, 0.7e-7 * i * i * spacing);
   if (!ok) fail(ErrorCode::invalid_argument, "the hull's surface is not closed: no inside found");
-}
-
-void DistanceGrid::fill_distances(const SurfaceTree& walls) {
-  const Surface& s = walls.surface();
-  const double reach = 0.5 * std::sqrt(3.0) * (brick - 1) * spacing_;
-  struct Near {
-    double at_centre;
-    const Vec3 *a, *b, *c;
-  };
-  std::vector<Near> near;
-  std::vector<int> found;
-  double limit = 1e300;  // distance at the last brick: the next one cannot be much farther
-  for (int k0 = 0; k0 < n_[2]; k0 += brick)
-    for (int j0 = 0; j0 < n_[1]; j0 += brick) {
-      limit = 1e300;
-      for (int i0 = 0; i0 < n_[0]; i0 += brick) {
-        const Vec3 centre =
-            box_.lower + spacing_ * (Vec3(i0, j0, k0).array() + 0.5 * (brick - 1)).matrix();
-        const double nearest = walls.distance(centre, limit);
-        limit = 1.0001 * (nearest + brick * spacing_);
-        const int i1 = std::min(i0 + brick, n_[0]), j1 = std::min(j0 + brick, n_[1]),
-                  k1 = std::min(k0 + brick, n_[2]);
-        const auto for_nodes = [&](const auto& value) {
-          for (int k = k0; k < k1; ++k)
-            for (int j = j0; j < j1; ++j)
-              for (int i = i0; i < i1; ++i)
-                nodes_[static_cast<std::size_t>(k) * step_z_ +
-                       static_cast<std::size_t>(j) * step_y_ + static_cast<std::size_t>(i)] =
-                    static_cast<float>(value(node(i, j, k)));
-        };
-        if (nearest > margin_ + reach) {
-          for_nodes([&](const Vec3& x) { return nearest - (x - centre).norm(); });
-          continue;
-        }
-        // Only triangles that are not farther than the nearest one by the brick's size can matter.
-        found.clear();
-        near.clear();
-        const double within = nearest + 2 * reach;
-        walls.find_in_column({centre, Vec3::Constant(within), Eigen::Matrix3d::Identity()}, -1,
-                             found);
-        for (const int t : found) {
-          const auto& v = s.triangles[t];
-          const Vec3 &a = s.vertices[v[0]], &b = s.vertices[v[1]], &c = s.vertices[v[2]];
-          const double d = std::sqrt(squared_distance_to_triangle(centre, a, b, c));
-          if (d <= within) near.push_back({d, &a, &b, &c});
-        }
-        std::sort(near.begin(), near.end(),
-                  [](const Near& p, const Near& q) { return p.at_centre < q.at_centre; });
-        for_nodes([&](const Vec3& x) {
-          const double r = (x - centre).norm();
-          double best = 1e300, best2 = 1e300;
-          for (const Near& t : near) {
-            if (t.at_centre - r > best) break;
-            const double d2 = squared_distance_to_triangle(x, *t.a, *t.b, *t.c);
-            if (d2 < best2) {
-              best2 = d2;
-              best = std::sqrt(d2);
-            }
-          }
-          return best;
-        });
-      }
-    }
 }
 
 /// Winding number along lines in x. False if a line leaves the hull with a number other than 0.

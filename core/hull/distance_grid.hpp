@@ -36,12 +36,12 @@ class DistanceGrid {
   const IVec<3>& n_nodes() const { return n_; }
 
  private:
+  class Filler;
   struct Cell {
     const float* corner;
     double s[3];  ///< position in the cell, 0..1
   };
   bool find_cell(const Vec3& x, Cell& cell) const;
-  void fill_distances(const SurfaceTree& walls);
   bool set_signs(const Surface& walls, double shift_y, double shift_z);
   Vec3 node(int i, int j, int k) const { return box_.lower + spacing_ * Vec3(i, j, k); }
 

@@ -85,6 +85,10 @@ class Hull {
   /// Compartment index at a point, or -1 (sea, or solid).
   virtual int compartment_at(const Vec<Dim>& x) const = 0;
   virtual int n_compartments() const = 0;
+  /// Around all compartments; lower > upper if there are none.
+  virtual Box<Dim> compartment_bounds() const {
+    return {Vec<Dim>::Constant(1e300), Vec<Dim>::Constant(-1e300)};
+  }
   /// Whether any compartment has a permeability below 1.
   virtual bool has_porous_space() const { return false; }
   /// Connected space (0 sea, 1 + i compartment i) whose fluid is nearest to x, also defined in walls;

@@ -75,6 +75,13 @@ std::unique_ptr<HullPatch<2>> SectionHull::patch(const OrientedBox<2>& block) co
   return std::make_unique<SpacedPatch<2>>(std::move(solid), std::move(spaces), std::move(openings));
 }
 
+Box<2> SectionHull::compartment_bounds() const {
+  Box<2> all = Hull<2>::compartment_bounds();
+  for (const Box<2>& b : compartment_bounds_)
+    all = {all.lower.cwiseMin(b.lower), all.upper.cwiseMax(b.upper)};
+  return all;
+}
+
 int SectionHull::compartment_at(const Vec2& x) const {
   for (std::size_t i = 0; i < compartment_bounds_.size(); ++i) {
     const Box<2>& box = compartment_bounds_[i];

@@ -27,6 +27,7 @@ class SectionHull final : public Hull<2> {
   /// A point in an opening belongs to no compartment (-1), nor does one inside a wall.
   int compartment_at(const Vec2& x) const override;
   int n_compartments() const override { return static_cast<int>(section_.compartments.size()); }
+  Box<2> compartment_bounds() const override;
 
   bool has_porous_space() const override {
     for (const auto& c : section_.compartments)

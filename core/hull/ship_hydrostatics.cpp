@@ -69,19 +69,36 @@ Immersed immerse(const Solid& solid, const ShipAttitude& at) {
   return sum;
 }
 
+/// As find_waterline from a guess nearby: plain Newton, and the safe way if it does not settle.
+std::optional<double> waterline_near(const Solid& solid, double heel, double trim, double volume,
+                                     double guess) {
+  double w = guess;
+  for (int i = 0; i < 8; ++i) {
+    const Immersed sum = immerse(solid, {w, heel, trim});
+    if (!(sum.area > 0 && sum.volume > 0)) break;
+    const double step = (volume - sum.volume) / sum.area;
+    w += step;
+    if (std::abs(step) < 1e-13 * (1 + std::abs(w))) return w;
+  }
+  return find_waterline(solid, heel, trim, volume);
+}
+
 /// Trim that balances the pitch moment at this heel, with its waterline; nullopt: sinks, or not
 /// found.
 std::optional<ShipAttitude> balance(const Solid& solid, double volume, const Vec3& cog, double heel,
-                                    double trim, bool free_trim) {
+                                    const std::optional<ShipAttitude>& near, bool free_trim) {
+  double trim = near ? near->trim : 0;
+  std::optional<double> w = near ? std::optional<double>(near->waterline) : std::nullopt;
   for (int i = 0; i < 60; ++i) {
-    const auto w = find_waterline(solid, heel, trim, volume);
+    w = w ? waterline_near(solid, heel, trim, volume, *w)
+          : find_waterline(solid, heel, trim, volume);
     if (!w) return std::nullopt;
     const ShipAttitude at{*w, heel, trim};
     if (!free_trim) return at;
     const ShipHydrostatics water = hydrostatics(solid, at);
     const double lever = levers(water, at, cog).x();
     const double gm = metacentric_heights(water, at, cog).longitudinal;
-    if (std::abs(lever) < 1e-12 * (1 + std::abs(gm))) return at;
+    if (std::abs(lever) < 1e-11 * (1 + std::abs(gm))) return at;
     // Newton: lever grows by GM_L for each radian bow down.
     const double step = gm > 0 ? -lever / gm : (lever > 0 ? -0.02 : 0.02);
     trim += std::clamp(step, -0.1, 0.1);
@@ -164,18 +181,17 @@ ShipEquilibrium find_equilibrium(const Solid& solid, double volume, const Vec3& 
     result.stable = heel_found && result.gm.transverse > 0;
     return result;
   };
-  const auto upright = balance(solid, volume, cog, 0, 0, free_trim);
+  const auto upright = balance(solid, volume, cog, 0, std::nullopt, free_trim);
   if (!upright) return result;
   result.floats = true;
   if (!free_heel) return finish(*upright, true);
 
-  double trim = upright->trim;  // of the last heel: the next one is near
+  ShipAttitude last = *upright;  // the next one is near
   const auto lever = [&](double heel, ShipAttitude* where = nullptr) {
-    const ShipAttitude at = balance(solid, volume, cog, heel, trim, free_trim)
-                                .value_or(ShipAttitude{upright->waterline, heel, trim});
-    trim = at.trim;
-    if (where != nullptr) *where = at;
-    return levers(hydrostatics(solid, at), at, cog).y();
+    last = balance(solid, volume, cog, heel, last, free_trim)
+               .value_or(ShipAttitude{upright->waterline, heel, last.trim});
+    if (where != nullptr) *where = last;
+    return levers(hydrostatics(solid, last), last, cog).y();
   };
   const auto water = hydrostatics(solid, *upright);
   const double at_zero = levers(water, *upright, cog).y();
@@ -207,11 +223,11 @@ std::vector<std::pair<double, double>> righting_curve(const Solid& solid, double
                                                       const std::vector<double>& heels,
                                                       bool free_trim) {
   std::vector<std::pair<double, double>> curve;
-  double trim = 0;
+  std::optional<ShipAttitude> last;
   for (const double heel : heels) {
-    const auto at = balance(solid, volume, cog, heel, trim, free_trim);
+    const auto at = balance(solid, volume, cog, heel, last, free_trim);
     if (!at) continue;
-    trim = at->trim;
+    last = at;
     curve.emplace_back(heel, -levers(hydrostatics(solid, *at), *at, cog).y());
   }
   return curve;

@@ -18,6 +18,9 @@ namespace {
 constexpr double nothing = 1e-12;  // [m3] less than this is no volume
 constexpr double touch = 1e-6;     // [m] how near an opening must come to count as touching
 constexpr double largest = 1e4;    // [m] of a compartment's coordinates
+constexpr const char* thinner =
+    "make the wall thinner than the smallest radius of the hull there, or keep the box away from "
+    "narrow parts";
 
 std::string text(const Box<3>& box) {
   return fmt::format("({}, {}, {}) to ({}, {}, {})", box.lower.x(), box.lower.y(), box.lower.z(),
@@ -86,8 +89,10 @@ class ProblemFinder {
     try {
       spaces_.back() = space_of(c, outer_);
     } catch (const Error& error) {
-      add(where, fmt::format("the space of '{}' cannot be made: {}", c.name, error.what()),
-          "make the wall thinner or the box smaller, away from the keel and the ends");
+      add(where + ".wall_thickness",
+          fmt::format("{} m: the space of '{}' cannot be made ({})", c.wall_thickness, c.name,
+                      error.what()),
+          thinner);
       return;
     }
     if (volume_of(spaces_.back()) <= nothing) {
@@ -108,7 +113,7 @@ class ProblemFinder {
               "a wall of {} m is thicker than the hull's shape allows in '{}' near ({:.4g}, "
               "{:.4g}, {:.4g})",
               c.wall_thickness, c.name, at.x(), at.y(), at.z()),
-          "make the wall thinner or keep the box away from sharp or narrow parts");
+          thinner);
     }
   }
 

@@ -64,6 +64,13 @@ std::unique_ptr<HullPatch<3>> SurfaceHull::patch(const OrientedBox<3>& block) co
   return std::make_unique<SpacedPatch<3>>(std::move(solid), std::move(spaces), std::move(openings));
 }
 
+Box<3> SurfaceHull::compartment_bounds() const {
+  Box<3> all = Hull<3>::compartment_bounds();
+  for (const Space& s : spaces_)
+    all = {all.lower.cwiseMin(s.bounds.lower), all.upper.cwiseMax(s.bounds.upper)};
+  return all;
+}
+
 int SurfaceHull::compartment_at(const Vec3& x) const {
   for (std::size_t i = 0; i < spaces_.size(); ++i)
     if (holds(spaces_[i].bounds, x) && spaces_[i].tree[0]->contains(x)) return static_cast<int>(i);

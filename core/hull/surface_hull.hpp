@@ -29,6 +29,7 @@ class SurfaceHull final : public Hull<3> {
   /// A point in a wall's opening belongs to no compartment (-1), nor does one inside a wall.
   int compartment_at(const Vec3& x) const override;
   int n_compartments() const override { return static_cast<int>(ship_.compartments.size()); }
+  Box<3> compartment_bounds() const override;
   bool has_porous_space() const override { return porous_; }
   int space_near(const Vec3& x) const override;
 

@@ -14,6 +14,10 @@ using field::offset;
 
 namespace {
 
+/// Rounds of smoothing before and after the coarse correction, each one red-black sweep in every block with its
+/// neighbours' values of the round before. The neighbours matter: two sweeps in one round converge slower.
+constexpr int smoothing_rounds = 3;
+
 template <int Dim>
 IVec<Dim> root_cells(const mesh::TankGrid<Dim>& grid) {
   IVec<Dim> n = grid.root_blocks;
@@ -105,8 +109,8 @@ void Multigrid<Dim>::smooth_from_zero(int b) {
   Scratch<float, Dim> z;
   std::fill(std::begin(z.data), std::end(z.data), 0.0f);
   const auto k = Coefficients<Dim>::of(op_.coefficients(), b);
-  for (int sweep = 0; sweep < 4; ++sweep)
-    half_sweep<Dim>(k, b_.block(b), op_.inverse_diagonal().block(b), sweep & 1, z);
+  for (int colour = 0; colour < 2; ++colour)
+    half_sweep<Dim>(k, b_.block(b), op_.inverse_diagonal().block(b), colour, z);
   store<Dim>(z, this->z(b));
 }
 
@@ -121,6 +125,7 @@ void Multigrid<Dim>::restrict_residual(int parent) {
     load_ghosts<float, Dim>(forest_, b, CoarseGhost::zero, [&](int nb) { return this->z(nb); }, z);
     const auto k = Coefficients<Dim>::of(op_.coefficients(), b);
     const float* rhs = b_.block(b);
+    const float* kept = op_.has_gaps(b) ? op_.kept(b) : nullptr;
     IVec<Dim> base{};
     for (int a = 0; a < Dim; ++a) base[a] = ((child >> a) & 1) * half;
     // Residuals of 2^(Dim-1) rows are added up, then pairs along the row.
@@ -133,7 +138,12 @@ void Multigrid<Dim>::restrict_residual(int parent) {
         const float* zr = &z(row);
         neighbour_sums<float, Dim>(k, row, zr, neighbours, diagonal);
         const float* br = rhs + offset<Dim>(row, cell_strides<Dim>());
-        for (int i = 0; i < n; ++i) sum[i] += br[i] - (diagonal[i] * zr[i] - neighbours[i]);
+        if (kept) {
+          const float* keep = kept + offset<Dim>(row, cell_strides<Dim>());
+          for (int i = 0; i < n; ++i) sum[i] += keep[i] * (br[i] - (diagonal[i] * zr[i] - neighbours[i]));
+        } else {
+          for (int i = 0; i < n; ++i) sum[i] += br[i] - (diagonal[i] * zr[i] - neighbours[i]);
+        }
       }
       IVec<Dim> to = c;
       for (int a = 0; a < Dim; ++a) to[a] += base[a];
@@ -181,6 +191,7 @@ void Multigrid<Dim>::correct(int b) {
   const mesh::Block<Dim>& block = forest_.block(b);
   const float* coarse = z(block.parent);
   float* fine = z(b);
+  const float* kept = op_.has_gaps(b) ? op_.kept(b) : nullptr;
   IVec<Dim> base{};
   for (int a = 0; a < Dim; ++a) base[a] = (block.coord[a] & 1) * BlockShape<Dim>::n / 2;
   for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
@@ -188,6 +199,11 @@ void Multigrid<Dim>::correct(int b) {
     for (int a = 1; a < Dim; ++a) from[a] += row[a] / 2;
     const float* s = coarse + offset<Dim>(from, cell_strides<Dim>());
     float* d = fine + offset<Dim>(row, cell_strides<Dim>());
+    if (kept) {
+      const float* keep = kept + offset<Dim>(row, cell_strides<Dim>());
+      for (int i = 0; i < BlockShape<Dim>::n; ++i) d[i] += keep[i] * s[i / 2];
+      return;
+    }
     for (int i = 0; i < BlockShape<Dim>::n / 2; ++i) {
       d[2 * i] += s[i];
       d[2 * i + 1] += s[i];
@@ -196,15 +212,24 @@ void Multigrid<Dim>::correct(int b) {
 }
 
 template <int Dim>
-void Multigrid<Dim>::smooth_again(int b) {
+void Multigrid<Dim>::smooth_again(int b, bool down) {
   const int level = forest_.block(b).level;
   Scratch<float, Dim> z;
   load_cells<float, Dim>(this->z(b), z);
-  load_ghosts<float, Dim>(forest_, b, CoarseGhost::value, [&](int nb) { return this->z(nb); }, z);
+  load_ghosts<float, Dim>(forest_, b, down ? CoarseGhost::zero : CoarseGhost::value,
+                          [&](int nb) { return this->z(nb); }, z);
   const auto k = Coefficients<Dim>::of(op_.coefficients(), b);
-  for (int sweep = 0; sweep < 4; ++sweep)
-    half_sweep<Dim>(k, b_.block(b), op_.inverse_diagonal().block(b), (sweep + 1) & 1, z);
+  for (int i = 0; i < 2; ++i)  // upwards in reversed order: symmetric
+    half_sweep<Dim>(k, b_.block(b), op_.inverse_diagonal().block(b), down ? i : 1 - i, z);
   store<Dim>(z, z_[1 - current_[static_cast<std::size_t>(level)]].block(b));
+}
+
+template <int Dim>
+void Multigrid<Dim>::smooth_level(int level, bool down) {
+  const int begin = forest_.level_begin(level), count = forest_.level_begin(level + 1) - begin;
+  mesh::parallel_for(count, forest_.threads(), [&](int i) { smooth_again(begin + i, down); });
+  std::size_t& current = current_[static_cast<std::size_t>(level)];
+  current = 1 - current;
 }
 
 template <int Dim>
@@ -251,6 +276,7 @@ void Multigrid<Dim>::apply(const CellField<double, Dim>& r) {
   for (int level = forest_.n_levels() - 1; level >= 1; --level) {
     const int begin = forest_.level_begin(level), count = forest_.level_begin(level + 1) - begin;
     mesh::parallel_for(count, threads, [&](int i) { smooth_from_zero(begin + i); });
+    for (int round = 1; round < smoothing_rounds; ++round) smooth_level(level, true);
     const int coarse = forest_.level_begin(level - 1), n_coarse = begin - coarse;
     mesh::parallel_for(n_coarse, threads, [&](int i) {
       if (!forest_.block(coarse + i).leaf) restrict_residual(coarse + i);
@@ -261,8 +287,7 @@ void Multigrid<Dim>::apply(const CellField<double, Dim>& r) {
   for (int level = 1; level < forest_.n_levels(); ++level) {
     const int begin = forest_.level_begin(level), count = forest_.level_begin(level + 1) - begin;
     mesh::parallel_for(count, threads, [&](int i) { correct(begin + i); });
-    mesh::parallel_for(count, threads, [&](int i) { smooth_again(begin + i); });
-    current_[static_cast<std::size_t>(level)] = 1 - current_[static_cast<std::size_t>(level)];
+    for (int round = 0; round < smoothing_rounds; ++round) smooth_level(level, false);
   }
 }
 

@@ -1,8 +1,9 @@
 // The preconditioner of the pressure solve: one multigrid V-cycle over all levels of the forest in float,
 // a fast adaptive composite cycle. On level l all blocks of that level, leaves and parents, are smoothed by
-// two red-black Gauss-Seidel sweeps inside each block with the neighbours' old values (additive over blocks,
+// rounds of red-black Gauss-Seidel inside each block with the neighbours' old values (additive over blocks,
 // so that neither threads nor block order change a bit); coarse leaves next to them stay frozen.
-// Transfers are piecewise constant. The cycle is symmetric.
+// Transfers are piecewise constant; a coarse cell stands for one connected piece of what it covers, so that
+// thin walls keep the pressures of their two sides apart on all levels. The cycle is symmetric.
 #pragma once
 
 #include "core/linear/dense_multigrid.hpp"
@@ -28,7 +29,8 @@ class Multigrid {
   void restrict_residual(int parent);
   void flux_to_coarse(int level);
   void correct(int b);
-  void smooth_again(int b);
+  void smooth_again(int b, bool down);
+  void smooth_level(int level, bool down);
   void solve_root();
 
   const PoissonOperator<Dim>& op_;

@@ -1,5 +1,7 @@
 #include "core/linear/poisson_operator.hpp"
 
+#include <algorithm>
+
 namespace seaway::linear {
 
 using field::cell_strides;
@@ -12,11 +14,113 @@ using field::offset;
 
 template <int Dim>
 PoissonOperator<Dim>::PoissonOperator(const Forest<Dim>& forest)
-    : forest_(forest), c_(forest), inverse_diagonal_(forest),
+    : forest_(forest), c_(forest), inverse_diagonal_(forest), kept_(forest, 1.0f), size_(forest, 1.0f),
+      has_gaps_(static_cast<std::size_t>(forest.n_blocks()), 0),
       first_coarse_face_(static_cast<std::size_t>(forest.n_blocks()), -1) {
   const auto& faces = forest.coarse_faces();
   for (std::size_t i = faces.size(); i-- > 0;)
     first_coarse_face_[static_cast<std::size_t>(faces[i].leaf)] = static_cast<int>(i);
+}
+
+namespace {
+
+/// Pieces of a group of 2^Dim cells: cells joined by open faces get the same number, the lowest of theirs.
+template <int Dim, class Open>
+std::array<int, BlockShape<Dim>::children> pieces_of_group(Open&& open) {
+  constexpr int children = BlockShape<Dim>::children;
+  std::array<int, children> piece;
+  for (int s = 0; s < children; ++s) piece[static_cast<std::size_t>(s)] = s;
+  for (bool again = true; again;) {
+    again = false;
+    for (int s = 0; s < children; ++s) {
+      for (int a = 0; a < Dim; ++a) {
+        const int t = s | (1 << a);
+        int &one = piece[static_cast<std::size_t>(s)], &other = piece[static_cast<std::size_t>(t)];
+        if (t == s || one == other || !open(t, a)) continue;
+        one = other = std::min(one, other);
+        again = true;
+      }
+    }
+  }
+  return piece;
+}
+
+}  // namespace
+
+/// Of each group of 2^Dim cells of block b that one coarse cell covers, the largest connected piece is kept.
+template <int Dim>
+void PoissonOperator<Dim>::find_pieces(int b) {
+  constexpr int n = BlockShape<Dim>::n, children = BlockShape<Dim>::children;
+  bool walls = false;
+  for (int axis = 0; axis < Dim && !walls; ++axis) {
+    const float* c = c_.block(axis, b);
+    IVec<Dim> lower = filled<Dim>(0), upper = field::faces_upper<Dim>(axis);
+    ++lower[axis];
+    --upper[axis];
+    float least = 1;
+    const int count = upper[0] - lower[0];
+    for_rows<Dim>(lower, upper, [&](const IVec<Dim>& row) {
+      const float* x = c + offset<Dim>(row, face_strides<Dim>(axis));
+      for (int i = 0; i < count; ++i) least = std::min(least, x[i]);
+    });
+    walls = !(least > 0);
+  }
+  float *kept = kept_.block(b), *size = size_.block(b);
+  char& gaps = has_gaps_[static_cast<std::size_t>(b)];
+  if (gaps) std::fill_n(kept, BlockShape<Dim>::cells, 1.0f);
+  gaps = 0;
+  const mesh::Block<Dim>& block = forest_.block(b);
+  IVec<Dim> base{};
+  for (int a = 0; a < Dim; ++a) base[a] = (block.coord[a] & 1) * n / 2;
+  float* above = size_.block(block.parent);
+  const float whole_group = static_cast<float>(children);
+  for_box<Dim>(filled<Dim>(0), filled<Dim>(n / 2), [&](const IVec<Dim>& group) {
+    const auto cell = [&](int s) {
+      IVec<Dim> i{};
+      for (int a = 0; a < Dim; ++a) i[a] = 2 * group[a] + ((s >> a) & 1);
+      return i;
+    };
+    IVec<Dim> to = group;
+    for (int a = 0; a < Dim; ++a) to[a] += base[a];
+    float& coarse_size = above[offset<Dim>(to, cell_strides<Dim>())];
+    coarse_size = 1;
+    if (!walls) return;
+    const auto piece = pieces_of_group<Dim>([&](int s, int axis) {
+      return c_.block(axis, b)[offset<Dim>(cell(s), face_strides<Dim>(axis))] > 0;
+    });
+    float sum[children] = {}, total = 0;
+    for (int s = 0; s < children; ++s) {
+      const IVec<Dim> i = cell(s);
+      bool open = false;
+      for (int a = 0; a < Dim && !open; ++a) {
+        const float* c = c_.block(a, b) + offset<Dim>(i, face_strides<Dim>(a));
+        open = c[0] > 0 || c[face_strides<Dim>(a)[a]] > 0;
+      }
+      const float part = open ? size[offset<Dim>(i, cell_strides<Dim>())] / whole_group : 0.0f;
+      sum[piece[static_cast<std::size_t>(s)]] += part;
+      total += part;
+    }
+    const int largest = static_cast<int>(std::max_element(sum, sum + children) - sum);
+    coarse_size = sum[largest];
+    if (!(sum[largest] < total)) return;
+    gaps = 1;
+    for (int s = 0; s < children; ++s)
+      if (piece[static_cast<std::size_t>(s)] != largest) kept[offset<Dim>(cell(s), cell_strides<Dim>())] = 0;
+  });
+}
+
+/// Cell of block b or one beyond its sides; finer and coarser neighbours have no gaps.
+template <int Dim>
+bool PoissonOperator<Dim>::is_kept(int b, IVec<Dim> cell) const {
+  constexpr int n = BlockShape<Dim>::n;
+  for (int a = 0; a < Dim; ++a) {
+    if (cell[a] >= 0 && cell[a] < n) continue;
+    const int side = cell[a] < 0 ? 0 : 1;
+    b = forest_.block(b).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))];
+    if (b < 0) return true;
+    cell[a] += side == 0 ? n : -n;
+  }
+  return !has_gaps(b) || kept_.block(b)[offset<Dim>(cell, cell_strides<Dim>())] > 0;
 }
 
 template <int Dim>
@@ -27,7 +131,13 @@ void PoissonOperator<Dim>::restrict_coefficients(int parent) {
     const IVec<Dim> strides = face_strides<Dim>(axis);
     float* coarse = c_.block(axis, parent);
     for (int child = 0; child < BlockShape<Dim>::children; ++child) {
-      const float* fine = c_.block(axis, block.child[static_cast<std::size_t>(child)]);
+      const int from = block.child[static_cast<std::size_t>(child)];
+      const float* fine = c_.block(axis, from);
+      bool gaps = has_gaps(from);
+      for (int side = 0; side < 2; ++side) {
+        const int nb = forest_.block(from).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
+        gaps = gaps || (nb >= 0 && has_gaps(nb));
+      }
       IVec<Dim> upper = filled<Dim>(half);
       ++upper[axis];
       for_box<Dim>(filled<Dim>(0), upper, [&](const IVec<Dim>& i) {
@@ -36,7 +146,13 @@ void PoissonOperator<Dim>::restrict_coefficients(int parent) {
           if ((s >> axis) & 1) continue;
           IVec<Dim> at{};
           for (int a = 0; a < Dim; ++a) at[a] = 2 * i[a] + ((s >> a) & 1);
-          sum += fine[offset<Dim>(at, strides)];
+          if (gaps) {
+            IVec<Dim> below = at;
+            --below[axis];
+            if (!is_kept(from, at) || !is_kept(from, below)) continue;
+          }
+          const float c = fine[offset<Dim>(at, strides)];
+          sum += c;
         }
         IVec<Dim> to{};
         for (int a = 0; a < Dim; ++a) to[a] = ((child >> a) & 1) * half + i[a];
@@ -65,6 +181,8 @@ template <int Dim>
 void PoissonOperator<Dim>::finish() {
   for (int level = forest_.n_levels() - 2; level >= 0; --level) {
     const int begin = forest_.level_begin(level), end = forest_.level_begin(level + 1);
+    const int fine_end = forest_.level_begin(level + 2);
+    mesh::parallel_for(fine_end - end, forest_.threads(), [&](int i) { find_pieces(end + i); });
     mesh::parallel_for(end - begin, forest_.threads(), [&](int i) {
       if (!forest_.block(begin + i).leaf) restrict_coefficients(begin + i);
     });

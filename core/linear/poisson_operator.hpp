@@ -52,7 +52,15 @@ class PoissonOperator {
 
   const CellField<float, Dim>& inverse_diagonal() const { return inverse_diagonal_; }
 
+  /// Whether some cells of a block (not of the root level) are left out of their coarse cell; then `kept` says
+  /// which are not: 1, else 0. A coarse cell stands for one connected piece of what it covers, the largest:
+  /// a wall inside a coarse cell would otherwise let the pressure through.
+  bool has_gaps(int b) const { return has_gaps_[static_cast<std::size_t>(b)] != 0; }
+  const float* kept(int b) const { return kept_.block(b); }
+
  private:
+  void find_pieces(int b);
+  bool is_kept(int b, IVec<Dim> cell) const;
   void restrict_coefficients(int parent);
   /// Ghosts of a coarse leaf towards finer blocks that give exactly the sum of the fine fluxes.
   void conservative_ghosts(const mesh::CoarseFace& face, const CellField<double, Dim>& p,
@@ -61,6 +69,8 @@ class PoissonOperator {
   const Forest<Dim>& forest_;
   FaceField<float, Dim> c_;
   CellField<float, Dim> inverse_diagonal_;
+  CellField<float, Dim> kept_, size_;  ///< size: part of the cell that it stands for, seen from below
+  std::vector<char> has_gaps_;
   RigidRows<Dim> rigid_;
   std::vector<int> first_coarse_face_;  ///< by block: index into forest.coarse_faces(), or -1
 };

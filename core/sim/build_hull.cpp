@@ -76,6 +76,29 @@ hull::SectionSpec section_spec(const Hull& hull, const std::string& folder) {
   return spec;
 }
 
+bool has_thin_walls(const Case& c) {
+  double coarsest = 0, thinnest = 1e300;
+  for (const Stage& stage : c.stages) coarsest = std::max(coarsest, hull_cell(c, stage));
+  for (const Compartment& compartment : c.hull.compartments)
+    thinnest = std::min(thinnest, compartment.wall_thickness);
+  for (std::size_t i = 0; i < c.hull.compartments.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Compartment &a = c.hull.compartments[i], &b = c.hull.compartments[j];
+      double gap = 0;  // between the boxes, along the axis that parts them
+      for (int axis = 3 - c.dim; axis < 3; ++axis)
+        gap = std::max({gap, a.lower[axis] - b.upper[axis], b.lower[axis] - a.upper[axis]});
+      if (gap > 1e-9) thinnest = std::min(thinnest, gap);
+    }
+  // A stretched base cell may be a little larger; the rule is about the nominal one.
+  return thinnest < cells_per_wall * coarsest * (1 - 1e-6);
+}
+
+double opening_reach(const Case& c) {
+  double coarsest = 0;
+  for (const Stage& stage : c.stages) coarsest = std::max(coarsest, hull_cell(c, stage));
+  return 2 * coarsest * std::max(1.0, c.stretch_x);
+}
+
 std::vector<bool> open_compartments(const Hull& hull) {
   std::vector<bool> open;
   for (const Compartment& c : hull.compartments) open.push_back(c.flooded);
@@ -92,7 +115,7 @@ std::shared_ptr<const hull::SectionHull> build_section_hull(const Case& c) {
     coarsest = std::max(coarsest, cell);
   }
   return std::make_shared<hull::SectionHull>(hull::build_section(section_spec(c.hull, c.folder)),
-                                             0.5 * finest, 16 * coarsest);
+                                             0.5 * finest, 16 * coarsest, opening_reach(c));
 }
 
 double start_draft(const Case& c, const hull::Section& section) {

@@ -31,6 +31,17 @@ std::string file_beside_case(const std::string& name, const std::string& folder)
 /// Before: shape is not none. Throws nothing; wrong values show in build_section.
 hull::SectionSpec section_spec(const Hull& hull, const std::string& folder);
 
+/// Walls of at least so many cells hold water by themselves.
+inline constexpr int cells_per_wall = 2;
+
+/// Whether some wall of a compartment is thinner than that in some stage: then all stages work by connected
+/// spaces, so that the geometry is the same in all of them.
+bool has_thin_walls(const Case& c);
+
+/// How far openings are extended through their walls so that every face between cells on both sides of one
+/// meets them [m]: two of the coarsest hull cells.
+double opening_reach(const Case& c);
+
 /// Which compartments are open to the sea at the start: those that are flooded.
 std::vector<bool> open_compartments(const Hull& hull);
 

@@ -1,41 +1,65 @@
 #include "core/sim/build_ship.hpp"
 
 #include <algorithm>
-#include <filesystem>
+#include <cmath>
 
 #include "core/base/error.hpp"
-#include "core/hull/surface_shapes.hpp"
 #include "core/sim/build_hull.hpp"
 
 namespace seaway::sim {
 
-hull::Surface outer_surface(const Hull& hull, const std::string& folder) {
-  switch (hull.shape) {
+namespace {
+
+hull::ShipSpec::Shape ship_shape(Hull::Shape shape) {
+  switch (shape) {
     case Hull::Shape::box:
-      return hull::box_surface(hull.length, hull.beam, hull.height);
+      return hull::ShipSpec::Shape::box;
     case Hull::Shape::rounded_box:
-      return hull.corner_radius > 0
-                 ? hull::rounded_box_surface(hull.length, hull.beam, hull.height, hull.corner_radius)
-                 : hull::box_surface(hull.length, hull.beam, hull.height);
+      return hull::ShipSpec::Shape::rounded_box;
     case Hull::Shape::cylinder:
-      return hull::cylinder_surface(hull.length, hull.radius);
+      return hull::ShipSpec::Shape::cylinder;
     case Hull::Shape::sphere:
-      return hull::sphere_surface(hull.radius);
+      return hull::ShipSpec::Shape::sphere;
     case Hull::Shape::wigley:
-      return hull::wigley_surface(hull.length, hull.beam, hull.design_draft, hull.height);
-    case Hull::Shape::offsets_hull: {
-      hull::OffsetsHullSpec spec;
-      spec.scale = hull.scale;
-      spec.origin = hull.station;
-      spec.extend_to = hull.extend_to;
-      return hull::offsets_surface(hull::read_offsets_table(file_beside_case(hull.offsets_file, folder)), spec);
-    }
+      return hull::ShipSpec::Shape::wigley;
+    case Hull::Shape::offsets_hull:
+      return hull::ShipSpec::Shape::offsets;
+    case Hull::Shape::stl:
+      return hull::ShipSpec::Shape::stl;
     case Hull::Shape::polygon:
     case Hull::Shape::offsets_section:
     case Hull::Shape::none:
       break;
   }
   fail(ErrorCode::invalid_argument, "this shape is a section; a ship's case needs a body in space");
+}
+
+}  // namespace
+
+hull::ShipSpec ship_spec(const Hull& hull, const std::string& folder) {
+  hull::ShipSpec spec;
+  spec.shape = ship_shape(hull.shape);
+  spec.length = hull.length;
+  spec.beam = hull.beam;
+  spec.height = hull.height;
+  spec.corner_radius = hull.corner_radius;
+  spec.radius = hull.radius;
+  spec.design_draft = hull.design_draft;
+  spec.file = file_beside_case(hull.offsets_file, folder);
+  spec.amidships = hull.station;
+  spec.scale = hull.scale;
+  spec.extend_to = hull.extend_to;
+  spec.unit = hull.unit;
+  for (const Compartment& from : hull.compartments) {
+    hull::ShipCompartmentSpec to{from.name, {from.lower, from.upper}, from.wall_thickness, from.permeability, {}};
+    for (const Opening& opening : from.openings) to.openings.push_back({opening.name, {opening.lower, opening.upper}});
+    spec.compartments.push_back(std::move(to));
+  }
+  return spec;
+}
+
+hull::Surface outer_surface(const Hull& hull, const std::string& folder) {
+  return hull::outer_surface(ship_spec(hull, folder));
 }
 
 std::shared_ptr<const hull::SurfaceHull> build_surface_hull(const Case& c) {
@@ -47,10 +71,36 @@ std::shared_ptr<const hull::SurfaceHull> build_surface_hull(const Case& c) {
     finest = std::min(finest, cell);
     coarsest = std::max(coarsest, cell);
   }
-  hull::Surface surface = outer_surface(c.hull, c.folder);
+  hull::Ship ship = hull::build_ship(ship_spec(c.hull, c.folder));
   const double margin = 8 * coarsest;
-  const double spacing = std::max(0.5 * finest, hull::DistanceGrid::finest_spacing(hull::bounds_of(surface), margin));
-  return std::make_shared<hull::SurfaceHull>(std::move(surface), spacing, margin);
+  const double spacing =
+      std::max(0.5 * finest, hull::DistanceGrid::finest_spacing(hull::bounds_of(ship.outer), margin));
+  return std::make_shared<hull::SurfaceHull>(std::move(ship), spacing, margin, opening_reach(c));
+}
+
+double start_draft(const Case& c, const hull::Ship& ship) {
+  if (c.body.draft > 0) return c.body.draft;
+  const hull::Solid solid = hull::buoyant_surfaces(ship, open_compartments(c.hull));
+  const auto draft = hull::find_waterline(solid, 0.0, 0.0, c.body.mass / c.fluids.rho_water);
+  SEAWAY_CHECK(draft, "mass {} kg exceeds what the hull can displace, {} kg; it cannot float", c.body.mass,
+               c.fluids.rho_water * hull::hydrostatics(solid, {1e9, 0, 0}).volume);
+  return *draft;
+}
+
+NaturalPeriods natural_periods(const Case& c, const hull::Ship& ship, double draft) {
+  NaturalPeriods periods;
+  const auto is_free = [&](Dof dof) {
+    return std::find(c.body.free.begin(), c.body.free.end(), dof) != c.body.free.end();
+  };
+  const hull::Solid solid = hull::buoyant_surfaces(ship, open_compartments(c.hull));
+  const hull::ShipHydrostatics water = hull::hydrostatics(solid, {draft, 0, 0});
+  const double gm = hull::metacentric_heights(water, {draft, 0, 0}, c.body.cog).transverse;
+  const double g = c.fluids.gravity;
+  // Rough added inertia: a quarter of the dry one in roll, the mass in heave.
+  if (is_free(Dof::roll) && gm > 0) periods.roll = 2 * pi * c.body.gyradii.x() * std::sqrt(1.25 / (g * gm));
+  const double stiffness = c.fluids.rho_water * g * water.waterplane_area;
+  if (is_free(Dof::heave) && stiffness > 0) periods.heave = 2 * pi * std::sqrt(2 * c.body.mass / stiffness);
+  return periods;
 }
 
 }  // namespace seaway::sim

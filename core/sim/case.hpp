@@ -75,17 +75,18 @@ struct Compartment {
 /// Hull axes: x forward from amidships (2-D: unused), y port from the centre plane, z up from the baseline.
 struct Hull {
   /// 2-D: box, rounded_box, polygon, offsets_section. 3-D: box, rounded_box, cylinder (axis along x), sphere,
-  /// wigley, offsets_hull.
-  enum class Shape { none, box, rounded_box, polygon, offsets_section, cylinder, sphere, wigley, offsets_hull };
+  /// wigley, offsets_hull, stl.
+  enum class Shape { none, box, rounded_box, polygon, offsets_section, cylinder, sphere, wigley, offsets_hull, stl };
   Shape shape = Shape::none;
   double length = 0;                               ///< 3-D: box, rounded_box, cylinder, wigley [m]
   double beam = 0, height = 0, corner_radius = 0;  ///< box, rounded_box; beam and height: wigley [m]
   double radius = 0;                               ///< cylinder, sphere [m]
   double design_draft = 0;                         ///< wigley [m]
   std::vector<std::array<double, 2>> vertices;     ///< polygon (y, z), last corner = first [m]
-  std::string offsets_file;                        ///< offsets_section, offsets_hull: table of half-breadths
-  double station = 0;                              ///< x of the section in the table's unit; offsets_hull: of amidships
+  std::string offsets_file;                        ///< offsets_section, offsets_hull: table of half-breadths; stl: that file
+  double station = 0;                              ///< x of the section in the table's unit; offsets_hull, stl: of amidships
   double scale = 1;                                ///< table lengths are divided by this
+  double unit = 0;                                 ///< stl: metres in the file's unit
   double extend_to = 0;                            ///< sides extended vertically up to this z [m]; 0: no
   std::vector<Compartment> compartments;
 };

@@ -30,6 +30,9 @@ struct HydrostaticsSummary {
   double mass = 0, displaced_volume = 0, draft = 0, kb = 0, bm = 0, gm = 0, heel = 0;
   double intact_draft = 0, intact_gm = 0;
   double natural_roll_period_dry = 0;  ///< without added inertia [s]
+  double trim = 0;                     ///< 3-D: where it comes to rest, bow down [rad]
+  double lcb = 0;                      ///< 3-D: of the centre of buoyancy, from amidships forward [m]
+  double wetted_surface = 0;           ///< 3-D [m2]
 };
 
 struct CaseReport {

@@ -64,6 +64,8 @@ Culprit culprit_of(Hull::Shape shape) {
   return {"hull.box", "check beam and height"};
 }
 
+}  // namespace
+
 void check_compartment_use(CheckState& s) {
   for (std::size_t i = 0; i < s.c.hull.compartments.size(); ++i) {
     const Compartment& c = s.c.hull.compartments[i];
@@ -82,8 +84,6 @@ void check_compartment_use(CheckState& s) {
           "add an opening, or flooded: false");
   }
 }
-
-}  // namespace
 
 void check_hull(CheckState& s) {
   if (!s.has_hull()) {

@@ -1,7 +1,6 @@
 // Stages: mesh rules, end rules, mapping, and whether their cells resolve walls and waves.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "core/sim/build_hull.hpp"
@@ -11,7 +10,6 @@ namespace seaway::sim {
 
 namespace {
 
-constexpr int cells_per_wall = 2;
 constexpr int cells_per_wave_height = 6;
 
 std::string stage_field(std::size_t i) { return fmt::format("cascade.stages[{}]", i); }
@@ -97,44 +95,8 @@ void check_mapping(CheckState& s, std::size_t i) {
   f.whole_in_range(field + ".tail_degree", m.tail_degree, -1, 3);
 }
 
-/// Smallest distance between the outlines of two spaces [m].
-double gap_between(const hull::Polygons& a, const hull::Polygons& b) {
-  double d2 = std::numeric_limits<double>::infinity();
-  const auto approach = [&](const hull::Polygons& corners, const hull::Polygons& edges) {
-    for (const hull::Polygon& p : corners)
-      for (const Vec2& x : p)
-        for (const hull::Polygon& q : edges)
-          for (std::size_t i = 0; i < q.size(); ++i)
-            d2 = std::min(d2, hull::squared_distance_to_edge(x, q[i], q[(i + 1) % q.size()]));
-  };
-  approach(a, b);
-  approach(b, a);
-  return std::sqrt(d2);
-}
-
-void check_bulkheads(CheckState& s, double coarsest) {
-  const auto& spaces = s.section->compartments;
-  for (std::size_t i = 0; i < spaces.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const double gap = gap_between(spaces[i].space, spaces[j].space);
-      if (gap >= cells_per_wall * coarsest * (1 - 1e-6)) continue;
-      const std::string field = fmt::format("hull.compartments[{}]", i);
-      if (gap < 1e-6)
-        s.findings.warning(field,
-                           fmt::format("'{}' and '{}' touch: there is no wall between them",
-                                       spaces[i].name, spaces[j].name),
-                           "leave a gap for the wall, or make them one compartment");
-      else
-        s.findings.error(
-            field,
-            fmt::format("the wall between '{}' and '{}' is {:.4g} m thick, less than {} cells of "
-                        "{:.4g} m at the hull; it leaks",
-                        spaces[i].name, spaces[j].name, gap, cells_per_wall, coarsest),
-            fmt::format(
-                "set hull_cell_m to {:.4g} or less in every stage, or make the wall thicker",
-                gap / cells_per_wall));
-    }
-}
+/// Smallest number of cells across a compartment: with fewer two of its walls share a cell.
+constexpr int cells_per_compartment = 4;
 
 void check_walls(CheckState& s) {
   double coarsest = 0;
@@ -145,22 +107,27 @@ void check_walls(CheckState& s) {
       stage = i;
     }
   for (std::size_t i = 0; i < s.c.hull.compartments.size(); ++i) {
-    const double wall = s.c.hull.compartments[i].wall_thickness;
-    // A stretched base cell may be a little larger; the rule is about the nominal one.
-    if (wall >= cells_per_wall * coarsest * (1 - 1e-6)) continue;
-    s.findings.error(
-        fmt::format("hull.compartments[{}].wall_thickness_m", i),
-        fmt::format("{} m is thinner than {} cells of {:.4g} m at the hull in stage {} ('{}'); "
-                    "such a wall leaks",
-                    wall, cells_per_wall, coarsest, stage, s.c.stages[stage].name),
-        wall > 0
-            ? fmt::format(
-                  "set {}.mesh.hull_cell_m to {:.4g} or less in every stage, or make the wall at "
-                  "least {:.4g} m thick",
-                  stage_field(stage), wall / cells_per_wall, cells_per_wall * coarsest)
-            : fmt::format("make the wall at least {:.4g} m thick", cells_per_wall * coarsest));
+    const Compartment& c = s.c.hull.compartments[i];
+    const std::string field = fmt::format("hull.compartments[{}]", i);
+    for (int axis = 3 - s.c.dim; axis < 3; ++axis) {
+      const double width = c.upper[axis] - c.lower[axis];
+      const double cell = axis == 0 ? s.c.stretch_x * coarsest : coarsest;
+      if (width >= cells_per_compartment * cell * (1 - 1e-6)) continue;
+      s.findings.error(fmt::format("{}.{}_m", field, "xyz"[axis]),
+                       fmt::format("the compartment is {:.4g} m wide, less than {} cells of {:.4g} m at the hull in "
+                                   "stage {} ('{}'); two walls would share a cell",
+                                   width, cells_per_compartment, cell, stage, s.c.stages[stage].name),
+                       fmt::format("set hull_cell_m to {:.4g} or less in every stage, or widen the compartment",
+                                   width / cells_per_compartment * coarsest / cell));
+    }
   }
-  if (s.section) check_bulkheads(s, coarsest);
+  if (!s.c.hull.compartments.empty() && has_thin_walls(s.c))
+    s.findings.warning(
+        "hull.compartments",
+        fmt::format("some wall is thinner than {} cells of {:.4g} m at the hull in stage {} ('{}'); walls are held by "
+                    "connected spaces instead of cells, in all stages",
+                    cells_per_wall, coarsest, stage, s.c.stages[stage].name),
+        "nothing to do; with thicker walls or finer cells the pressure at the walls is smoother");
 }
 
 /// Cell at the calm level where the hull (or the origin) is.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/hull/section_shape.hpp"
-#include "core/hull/surface.hpp"
+#include "core/hull/ship_shape.hpp"
 #include "core/sim/case.hpp"
 #include "core/sim/check_case.hpp"
 #include "core/sim/mesh_regions.hpp"
@@ -50,7 +50,7 @@ struct CheckState {
   int wave_axis = 1;                         ///< the tank's axis along which waves go
   double wave_length = 0, wave_period = 0;   ///< 0: calm water, or unknown
   std::optional<hull::Section> section{};    ///< 2-D: if the hull could be built
-  std::optional<hull::Surface> ship{};       ///< 3-D: the outer surface, if it could be built
+  std::optional<hull::Ship> ship{};          ///< 3-D: if the hull could be built
   std::optional<HullPlace<3>> place{};       ///< afloat at the start; in 2-D all x are 0
   bool body_ok = false;                      ///< numbers of the body
   double roll_period = 0, heave_period = 0;  ///< rough natural periods; 0: not free or unknown
@@ -66,7 +66,9 @@ void check_fluids_and_tank(CheckState& s);       // check_tank.cpp
 void check_wave_and_zones(CheckState& s);        // check_tank.cpp
 void check_settings_and_outputs(CheckState& s);  // check_tank.cpp
 void check_hull(CheckState& s);                  // check_hull.cpp: shape, compartments
+void check_compartment_use(CheckState& s);       // check_hull.cpp: names, floods without an opening
 void check_ship_hull(CheckState& s);             // check_ship.cpp: the same in 3-D
+void check_compartment_use(CheckState& s);       // check_hull.cpp: names, floods
 void check_body(CheckState& s);                  // check_motion.cpp: numbers and freedoms
 void check_floating(CheckState& s);  // check_motion.cpp: hydrostatics, place in the tank
 void check_place(CheckState& s);     // check_motion.cpp: in the tank, clear of the zones; needs s.place

@@ -86,28 +86,30 @@ Model<Dim> make_model(const Case& c) {
     if (c.hull.shape != Hull::Shape::none) {
       const auto section = build_section_hull(c);
       m.hull = section;
-      m.body = motion::make_rigid_body<Dim>(c.body.mass, c.body.cog, c.body.gyradii);
       const double draft = start_draft(c, section->section());
       m.rest_cog = from_vec3<Dim>(c.body.cog);
       m.rest_cog[Dim - 1] -= draft;
-      m.start_pose = motion::make_pose<Dim>(m.rest_cog + from_vec3<Dim>(c.body.offset), {c.body.angles.x(), 0, 0});
-      std::vector<motion::Dof> free;
-      for (const Dof dof : c.body.free) free.push_back(static_cast<motion::Dof>(dof));
-      m.free = motion::free_dofs<Dim>(std::span<const motion::Dof>(free));
-      for (const auto& compartment : c.hull.compartments) m.compartments.push_back(compartment.name);
-      m.displacement = c.body.mass / c.fluids.rho_water;
       add_natural_periods(c, section->section(), draft, periods);
     }
   } else if (c.hull.shape != Hull::Shape::none) {
-    m.hull = build_surface_hull(c);
+    const auto ship = build_surface_hull(c);
+    m.hull = ship;
+    const double draft = start_draft(c, ship->ship());
+    const NaturalPeriods natural = natural_periods(c, ship->ship(), draft);
+    periods.add(natural.heave);
+    periods.add(natural.roll);
+    m.rest_cog = c.body.cog - Vec3(0, 0, draft);
+  }
+  if (m.hull) {
     m.body = motion::make_rigid_body<Dim>(c.body.mass, c.body.cog, c.body.gyradii);
-    m.rest_cog = c.body.cog - Vec3(0, 0, c.body.draft);
-    m.start_pose = motion::make_pose<Dim>(m.rest_cog + c.body.offset,
-                                          {c.body.angles.x(), c.body.angles.y(), c.body.angles.z()});
+    const Vec3& turn = c.body.angles;
+    m.start_pose = motion::make_pose<Dim>(m.rest_cog + from_vec3<Dim>(c.body.offset), {turn.x(), turn.y(), turn.z()});
     std::vector<motion::Dof> free;
     for (const Dof dof : c.body.free) free.push_back(static_cast<motion::Dof>(dof));
     m.free = motion::free_dofs<Dim>(std::span<const motion::Dof>(free));
+    for (const auto& compartment : c.hull.compartments) m.compartments.push_back(compartment.name);
     m.displacement = c.body.mass / c.fluids.rho_water;
+    if (has_thin_walls(c)) m.walls = flow::Walls::thin;
   }
   m.period = m.wave ? m.wave->period() : periods.longest;
   m.dt = c.time.dt;

@@ -40,7 +40,8 @@ Simulation<Dim>::Simulation(std::shared_ptr<const Model<Dim>> model, std::unique
       viscosity_(*forest_, model_->fluids, model_->boundaries) {
   const Case& c = model_->description;
   if (model_->hull)
-    mask_ = std::make_unique<flow::HullMask<Dim>>(*forest_, model_->hull, model_->body, hull_clearance<Dim>);
+    mask_ = std::make_unique<flow::HullMask<Dim>>(*forest_, model_->hull, model_->body, hull_clearance<Dim>,
+                                                  model_->walls);
   if (c.zones.generation_length > 0 || c.zones.absorption_length > 0) {
     // The wave comes in at the lower end unless it goes towards the negative axis.
     int axis = 0;
@@ -109,8 +110,9 @@ void Simulation<Dim>::initialise() {
     window.load_cells(state_.vof, window_vof_);
     window.for_cells([&](const IVec<Dim>& i) {
       const Vec<Dim> x = window.cell_centre(i);
-      const int space = mask_->space_at(x);
-      if (space == 0) return;
+      const auto& spaces = mask_->now().space;
+      const int space = spaces.empty() ? mask_->space_at(x) : spaces[static_cast<std::size_t>(window.at(i))];
+      if (space <= 0) return;
       const bool flooded = model_->description.hull.compartments[static_cast<std::size_t>(space - 1)].flooded;
       double& c = window_vof_[static_cast<std::size_t>(window.at(i))];
       c = flooded ? std::clamp(0.5 - x[Dim - 1] / window.h()[Dim - 1], 0.0, 1.0) : 0.0;
@@ -316,6 +318,7 @@ void Simulation<Dim>::kick(double dt, StepReport& report) {
     force[Dim - 1] -= model_->body.mass * model_->fluids.gravity;
     // The pressure acts on the hull where it is now, while the solve has it half a step ahead.
     force += rows_now.gather(state_.p.data()) - rows_half.gather(state_.p.data());
+    force += mask_->carried_weight(window_vof_, model_->fluids);
     body_.twist += dt * (inverse * force);
   }
   clock_.charge("hull");
@@ -328,7 +331,9 @@ void Simulation<Dim>::kick(double dt, StepReport& report) {
     report.failure = "the pressure is not finite";
     return;
   }
-  if (mask_) load_ = mask_->rigid_rows(mask_->now()).gather(state_.p.data());
+  if (mask_)
+    load_ = mask_->rigid_rows(mask_->now()).gather(state_.p.data()) +
+            mask_->carried_weight(window_vof_, model_->fluids);
   extend_pressure();
   extend_velocity();
   clock_.charge("hull");
@@ -349,7 +354,10 @@ StepReport Simulation<Dim>::step() {
   // Transport with w at t + dt/2.
   if (mask_) book_.begin_step(*mask_, state_);
   for (int s = 0; s < report.substeps; ++s) advection_.advance(state_, dt_ / report.substeps, sub_step_++);
-  if (mask_) book_.close_fluxes(*mask_, state_.vof, body_.twist, dt_);
+  if (mask_) {
+    book_.close_fluxes(*mask_, state_.vof, body_.twist, dt_);
+    book_.undo_wall_fluxes(*mask_, state_.vof, dt_);
+  }
   clock_.charge("advection");
   // Move the hull, see where it will be half a step later.
   plan_next_step(report);
@@ -414,7 +422,9 @@ std::vector<double> Simulation<Dim>::compartment_volumes() const {
   window.for_cells([&](const IVec<Dim>& i) {
     const double v = book_.visible()[static_cast<std::size_t>(window.at(i))];
     if (v <= 0) return;
-    const int space = mask_->space_at(window.cell_centre(i));
+    const auto& spaces = mask_->now().space;
+    const int space = spaces.empty() ? mask_->space_at(window.cell_centre(i))
+                                     : spaces[static_cast<std::size_t>(window.at(i))];
     if (space > 0) out[static_cast<std::size_t>(space - 1)] += v;
   });
   return out;

@@ -34,6 +34,7 @@ struct Model {
   flow::Boundaries<Dim> boundaries;
   std::shared_ptr<const waves::WaveField> wave;         ///< null in calm water
   std::shared_ptr<const hull::Hull<Dim>> hull;          ///< null without a hull
+  flow::Walls walls = flow::Walls::resolved;
   motion::RigidBody<Dim> body;
   Vec<Dim> rest_cog = Vec<Dim>::Zero();                 ///< cog when it floats at its draft, upright
   motion::Pose<Dim> start_pose;

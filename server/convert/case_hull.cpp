@@ -98,10 +98,23 @@ void read_shape(const v1::Hull& m, int dim, sim::Hull& hull, Checker& check) {
       read_offsets(m.offsets_hull(), "hull.offsets_hull", hull, check);
       hull.station = check.number("hull.offsets_hull.amidships", m.offsets_hull().amidships(), any_finite);
       break;
+    case v1::Hull::kStl: {
+      const v1::StlShape& stl = m.stl();
+      hull.shape = sim::Hull::Shape::stl;
+      if (stl.file().empty() || stl.file().size() > 1000)
+        check.problem("hull.stl.file", stl.file().empty() ? "is missing" : "is too long", "name the STL file");
+      hull.offsets_file = stl.file();
+      if (!(stl.unit_m() > 0))
+        check.problem("hull.stl.unit_m", fmt::format("{} is not a unit", stl.unit_m()),
+                      "an STL file does not say its unit: give the metres in it, for example 0.001");
+      hull.unit = stl.unit_m();
+      if (stl.has_amidships()) hull.station = check.number("hull.stl.amidships", stl.amidships(), any_finite);
+      break;
+    }
     case v1::Hull::SHAPE_NOT_SET:
       check.problem("hull", "has no shape",
                     dim == 2 ? "give one of box, rounded_box, polygon, offsets_section"
-                             : "give one of box, rounded_box, cylinder, sphere, wigley, offsets_hull");
+                             : "give one of box, rounded_box, cylinder, sphere, wigley, offsets_hull, stl");
       return;
   }
   const bool in_2d = hull.shape == sim::Hull::Shape::box || hull.shape == sim::Hull::Shape::rounded_box ||

@@ -74,6 +74,13 @@ void put_hull(const sim::Hull& h, int dim, v1::Hull& m) {
       if (h.extend_to > 0) s.set_extend_to_m(h.extend_to);
       break;
     }
+    case sim::Hull::Shape::stl: {
+      v1::StlShape& stl = *m.mutable_stl();
+      stl.set_file(h.offsets_file);
+      stl.set_unit_m(h.unit);
+      stl.set_amidships(h.station);
+      break;
+    }
   }
   for (const sim::Compartment& from : h.compartments) {
     v1::Compartment& to = *m.add_compartments();

@@ -129,6 +129,9 @@ v1::CaseReport to_proto(const sim::CaseReport& report) {
     to.set_intact_draft_m(from.intact_draft);
     to.set_intact_gm_m(from.intact_gm);
     to.set_natural_roll_period_dry_s(from.natural_roll_period_dry);
+    to.set_trim_deg(to_degrees(from.trim));
+    to.set_lcb_m(from.lcb);
+    to.set_wetted_surface_m2(from.wetted_surface);
   }
   for (const sim::StageEstimate& from : report.stages) {
     v1::StageEstimate& to = *m.add_stages();

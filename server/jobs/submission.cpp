@@ -95,7 +95,9 @@ sim::Case bind_case(const v1::Case& message, const Files& files, const Workspace
   if (!core.hull.offsets_file.empty()) {
     const auto file = known.find(core.hull.offsets_file);
     if (file == known.end())
-      throw convert::InputError("INVALID_FILES", {{sim::Diagnostic::Severity::error, core.dim == 3 ? "hull.offsets_hull.file" : "hull.offsets_section.file",
+      throw convert::InputError("INVALID_FILES", {{sim::Diagnostic::Severity::error, core.dim == 2                                   ? "hull.offsets_section.file"
+                                                                                     : core.hull.shape == sim::Hull::Shape::stl ? "hull.stl.file"
+                                                                                                                                 : "hull.offsets_hull.file",
                                                    fmt::format("'{}' did not come with the case", core.hull.offsets_file),
                                                    "send it in files, under the same name"}});
     core.hull.offsets_file = workspace.keep_file(file->second->content());

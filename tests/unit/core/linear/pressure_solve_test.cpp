@@ -154,6 +154,61 @@ TEST(Multigrid, IterationsDoNotGrowWithResolution) {
 }
 TEST(Multigrid, IterationsDoNotGrowWithTheRootGrid) { EXPECT_LE(iterations<2>(3, 8), iterations<2>(3, 2) + 2); }
 
+/// Shuts the faces of thin walls: a box of 0.25 x 0.5 with walls of two cells, open to the outside at one place.
+template <int Dim>
+void build_box(Problem<Dim>& problem, double wall) {
+  const double lower[2] = {-0.25, -0.35}, upper[2] = {0.0, 0.15};
+  for (const int b : problem.forest->leaves()) {
+    const auto& block = problem.forest->block(b);
+    for (int axis = 0; axis < Dim; ++axis) {
+      float* c = problem.op->coefficients().block(axis, b);
+      field::for_box<Dim>(field::filled<Dim>(0), field::faces_upper<Dim>(axis), [&](const IVec<Dim>& i) {
+        const Vec<Dim> x = block.face_centre(i, axis);
+        double inside = 1e9;  // distance to the box's surface, > 0 inside
+        for (int a = 0; a < Dim; ++a) {
+          const int k = a == Dim - 1 ? 1 : 0;
+          inside = std::min({inside, x[a] - lower[k], upper[k] - x[a]});
+        }
+        const bool opening = x[0] > -0.05 && std::abs(x[Dim - 1] + 0.2) < 0.03;
+        if (std::abs(inside) < 0.5 * wall && !opening) c[field::offset<Dim>(i, field::face_strides<Dim>(axis))] = 0;
+      });
+    }
+  }
+  problem.op->finish();
+  problem.multigrid->update();
+}
+
+template <int Dim>
+int iterations_with_a_box(int levels, double wall) {
+  Problem<Dim> problem(levels);
+  build_box<Dim>(problem, wall);
+  const auto field = [&](unsigned seed, bool of_volume) {  // nothing in closed cells
+    auto f = problem.random_field(seed);
+    for (const int blk : problem.forest->leaves())
+      for (int i = 0; i < BlockShape<Dim>::cells; ++i) {
+        const bool open = problem.op->inverse_diagonal().block(blk)[i] > 0;
+        f.block(blk)[i] *= open ? (of_volume ? problem.forest->block(blk).cell_volume() : 1.0) : 0.0;
+      }
+    return f;
+  };
+  const auto x = field(1, false), y = field(2, false);
+  const auto mx = problem.precondition(x), my = problem.precondition(y);
+  EXPECT_NEAR(problem.dot(mx, y), problem.dot(x, my), 1e-5 * std::sqrt(problem.dot(mx, mx) * problem.dot(y, y)));
+  ConjugateGradient<Dim> cg(*problem.forest);
+  CellField<double, Dim> p(*problem.forest);
+  const auto b = field(3, true);
+  const auto report = cg.solve(*problem.op, *problem.multigrid, b, p, 1e-6, 100);
+  EXPECT_TRUE(report.converged);
+  std::cout << Dim << "-D with a box, " << levels << " levels: " << report.iterations << " iterations\n";
+  return report.iterations;
+}
+TEST(Multigrid, ThinWallsKeepTwoSpacesApart) {
+  // Walls of one cell of the level below the finest: all coarser cells lie across them.
+  const int open = iterations<2>(4), box = iterations_with_a_box<2>(4, 1.0 / 64);
+  EXPECT_LE(box, open + 5);  // 7 more if coarse cells lay across the walls
+  EXPECT_LE(iterations_with_a_box<3>(3, 1.0 / 16), iterations<3>(3) + 3);
+}
+
 TEST(Multigrid, SameBitsForAnyNumberOfThreads) {
   std::vector<double> reference;
   for (const int threads : {1, 2, 4}) {

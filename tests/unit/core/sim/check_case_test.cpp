@@ -62,7 +62,7 @@ void make_polygon(Case& c, std::vector<std::array<double, 2>> vertices) {
 }
 
 const Fault faults[] = {
-    {"Dimension", [](Case& c) { c.dim = 3; }, "dimension", "3"},
+    {"Dimension", [](Case& c) { c.dim = 4; }, "dimension", "4"},
     {"NegativeMass", [](Case& c) { c.body.mass = -1; }, "body.mass_kg_per_m", "-1"},
     {"NanMass", [](Case& c) { c.body.mass = nan; }, "body.mass_kg_per_m", "nan"},
     {"ZeroInertia", [](Case& c) { c.body.gyradii.x() = 0; }, "body.gyradii.x_m", "0"},
@@ -103,15 +103,17 @@ const Fault faults[] = {
     {"StationOutside", [](Case& c) { c.hull.station = 500; }, "hull.offsets_section", "x = 500"},
     {"ZeroScale", [](Case& c) { c.hull.scale = 0; }, "hull.offsets_section.scale", "0"},
     {"ThinWall", [](Case& c) { c.hull.compartments[1].wall_thickness = 0.015; },
-     "hull.compartments[1].wall_thickness_m", "0.015 m is thinner than 2 cells of 0.01 m"},
+     "hull.compartments", "thinner than 2 cells of 0.01 m", warning},
     {"CoarseHullCell", [](Case& c) { c.stages[0].mesh.hull_cell = 0.02; },
-     "hull.compartments[0].wall_thickness_m", "2 cells of 0.02 m"},
+     "hull.compartments", "2 cells of 0.02 m", warning},
+    {"NarrowCompartment", [](Case& c) { c.stages[0].mesh.hull_cell = 0.04; },
+     "hull.compartments[0].y_m", "less than 4 cells of 0.04 m"},
     {"ThinBulkhead",
      [](Case& c) {
        c.hull.compartments[0].lower.y() = 0.005;
        c.hull.compartments[1].upper.y() = -0.005;
      },
-     "hull.compartments[1]", "0.01 m thick"},
+     "hull.compartments", "thinner than 2 cells of 0.01 m", warning},
     {"Permeability", [](Case& c) { c.hull.compartments[0].permeability = 1.2; },
      "hull.compartments[0].permeability", "1.2"},
     {"ZeroPermeability", [](Case& c) { c.hull.compartments[0].permeability = 0; },
