@@ -56,15 +56,14 @@ class Simulation {
       : random_(seed), bug_(bug), disk_("sim" + std::to_string(seed), seed ^ 0xabcdef) {}
 
   SimulationResult run() {
-    open();
+    open();  // the disk is sound until act() breaks it
     const int steps = 40 + static_cast<int>(random_() % 80);
     for (int i = 0; i < steps && out_.violations.empty(); ++i) guarded([&] { act(); });
     // No more trouble: everything must come to its end.
-    disk_.set_full(false);
-    guarded([&] {
-      if (disk_.is_dead()) fail(ErrorCode::unavailable, "the disk failed");
-    });
     calm_ = true;
+    disk_.set_full(false);
+    if (disk_.is_dead()) crash();
+    disk_.fail_after(-1);
     for (int i = 0; i < 400 && out_.violations.empty() && !is_quiet(); ++i) guarded([&] { work(); });
     if (out_.violations.empty()) guarded([&] { check_end(); });
     store_.reset();
