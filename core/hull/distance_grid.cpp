@@ -94,6 +94,28 @@ class DistanceGrid::Filler {
       at(i, j, k) = static_cast<float>(std::sqrt(best));
     }
   }
+  /// Far from the walls: exact at the corner nodes, linear between them.
+  void fill_linear(const Brick& b, int level) {
+    const double last = b.size - 1;
+    double corner[8];
+    for (int c = 0; c < 8; ++c) {
+      const Vec3 x =
+          g_.node(b.i, b.j, b.k) + last * g_.spacing_ * Vec3(c & 1, (c >> 1) & 1, c >> 2);
+      double best = std::numeric_limits<double>::infinity();
+      for (const int t : lists_[static_cast<std::size_t>(level)])
+        best = std::min(best, distance2(t, x));
+      corner[c] = std::sqrt(best);
+    }
+    const auto mix = [](double t, double p, double q) { return p + t * (q - p); };
+    for (int k = 0; k < std::min(b.size, g_.n_[2] - b.k); ++k)
+      for (int j = 0; j < std::min(b.size, g_.n_[1] - b.j); ++j)
+        for (int i = 0; i < std::min(b.size, g_.n_[0] - b.i); ++i) {
+          const double u = i / last, v = j / last, w = k / last;
+          const double low = mix(v, mix(u, corner[0], corner[1]), mix(u, corner[2], corner[3]));
+          const double high = mix(v, mix(u, corner[4], corner[5]), mix(u, corner[6], corner[7]));
+          at(b.i + i, b.j + j, b.k + k) = static_cast<float>(mix(w, low, high));
+        }
+  }
   /// Of the triangles lists_[level], with their squares_[level] from `parent`, hands on those that
   /// can be nearest somewhere in the brick.
   void split(const Brick& b, int level, const Vec3& parent) {
@@ -126,6 +148,8 @@ class DistanceGrid::Filler {
     }
     next.resize(kept);
     next_d2.resize(kept);
+    if (b.size > 2 && b.size <= 8 && nearest - b.reach > g_.exact_ * (b.size / 4))
+      return fill_linear(b, level + 1);
     if (b.size == 2) return fill_last(b, level + 1);
     const int half = b.size / 2;
     for (int c = 0; c < 8; ++c) {
@@ -151,7 +175,9 @@ double DistanceGrid::finest_spacing(const Box<3>& bounds, double margin) {
 }
 
 DistanceGrid::DistanceGrid(const SurfaceTree& walls, double spacing, double margin)
-    : spacing_(spacing), margin_(margin) {
+    : spacing_(spacing),
+      margin_(margin),
+      exact_(std::max(6 * spacing, 0.2 * margin + 4 * spacing)) {
   SEAWAY_CHECK(std::isfinite(spacing) && spacing > 0 && std::isfinite(margin) && margin > 0,
                "distance table with spacing {} m and margin {} m; both must be positive", spacing,
                margin);

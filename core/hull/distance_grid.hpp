@@ -3,8 +3,10 @@
 // Nodes hold the exact distance to the nearest triangle (> 0 in water and air, also inside
 // compartments; < 0 in solid), in between it is trilinear. As a distance never changes faster than
 // its argument, the interpolated value is nowhere wrong by more than 0.87 spacings; along flat
-// walls it is exact. Farther than `margin` from the walls nodes hold a lower bound that is at least
-// the margin. Nodes are single precision. Const after construction, thread-safe.
+// walls it is exact. Farther than max(6 spacings, margin / 5 + 4 spacings) from the walls only
+// every third node (beyond twice that, every seventh) is exact and those between are linear.
+// Farther than `margin` nodes hold a lower bound that is at least the margin. Nodes are single
+// precision. Const after construction, thread-safe.
 #pragma once
 
 #include <vector>
@@ -46,6 +48,7 @@ class DistanceGrid {
   Vec3 node(int i, int j, int k) const { return box_.lower + spacing_ * Vec3(i, j, k); }
 
   double spacing_, margin_;
+  double exact_;  ///< nodes are exact up to this distance from the walls [m]
   Box<3> box_;
   IVec<3> n_{};
   std::size_t step_y_ = 0, step_z_ = 0;

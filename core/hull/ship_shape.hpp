@@ -4,10 +4,10 @@
 // thickness. That surface is made by moving each vertex so that all facets around it move by the
 // thickness along their own normals (flat walls and sharp corners exactly; at curved ones the
 // facets turn a little). It fails, with a message, where the wall is thicker than the hull's
-// radius of curvature. The solid is what the outer surface encloses less the compartments' spaces and less the
-// openings (boxes through walls). A compartment with permeability p < 1 keeps a solid of density 1
-// - p in its space: an opening takes away walls only. All lengths [m], hull axes (x forward from
-// amidships, y port, z up from the baseline). Pure functions, thread-safe.
+// radius of curvature. The solid is what the outer surface encloses less the compartments' spaces
+// and less the openings (boxes through walls). A compartment with permeability p < 1 keeps a solid
+// of density 1 - p in its space: an opening takes away walls only. All lengths [m], hull axes
+// (x forward from amidships, y port, z up from the baseline). Pure functions, thread-safe.
 #pragma once
 
 #include <string>

@@ -23,6 +23,8 @@ const std::vector<Case>& all_cases() {
       {"mapping", Suite::quick,
        "fields from one mesh to the next: kept, conserved, bounded, accurate", run_mapping},
       {"threads", Suite::quick, "the number of threads changes no bit", run_threads},
+      {"ship_held", Suite::full, "a held ship in calm water makes no currents and feels its hydrostatics",
+       run_ship_held},
       {"cascade_section", Suite::full,
        "the example through three meshes against the finest alone: amplitudes, CPU time saved",
        run_cascade_section},

@@ -46,6 +46,7 @@ void run_dam_break(const Context& context, Results& results);
 void run_pressure_scaling(const Context& context, Results& results);
 void run_mapping(const Context& context, Results& results);
 void run_threads(const Context& context, Results& results);
+void run_ship_held(const Context& context, Results& results);
 void run_cascade_section(const Context& context, Results& results);
 
 }  // namespace seaway::validation

@@ -112,6 +112,7 @@ const Fault faults[] = {
      [](Case& c) {
        c.hull.compartments[0].lower.y() = 0.005;
        c.hull.compartments[1].upper.y() = -0.005;
+       c.body.mass = 15;  // with so much of it flooded
      },
      "hull.compartments", "thinner than 2 cells of 0.01 m", warning},
     {"Permeability", [](Case& c) { c.hull.compartments[0].permeability = 1.2; },
