@@ -135,7 +135,9 @@ mesh::RefineRule<3> refine_about_hull(const Model<3>& m, const MeshRule& rule, c
   std::vector<motion::Pose<3>> poses;
   for (int k = 0; k < n_angles; ++k)
     poses.push_back(motion::make_pose<3>(m.start_pose.cog, {-rule.hull_sweep + k * turn, 0, 0}));
-  const auto in_box = mesh::refine_boxes<3>(m.grid, {box});
+  // Cells, and with them the window's clearance, may be longer along x.
+  const Vec3 more = Vec3::Constant(margin) * m.description.stretch_x;
+  const auto in_box = mesh::refine_boxes<3>(m.grid, {{box.lower - more, box.upper + more, box.cell}});
   return [hull = m.hull, body = m.body, poses, margin, heave, turn, in_box](const Vec3& lower, const Vec3& upper,
                                                                           int level) {
     if (!in_box(lower, upper, level)) return false;
@@ -145,7 +147,8 @@ mesh::RefineRule<3> refine_about_hull(const Model<3>& m, const MeshRule& rule, c
       // What the hull can reach between two of the angles, and by heave.
       const double between = 0.5 * turn * std::hypot(r.y(), r.z()) + heave;
       const double reach = 0.5 * (upper - lower).norm() + margin + between;
-      if (hull->signed_distance(motion::earth_to_hull<3>(body, pose, middle)) < reach) return true;
+      // Away from the walls the table of distances is coarse.
+      if (hull->signed_distance(motion::earth_to_hull<3>(body, pose, middle)) < 1.05 * reach) return true;
     }
     return false;
   };

@@ -10,7 +10,7 @@
 namespace seaway::validation {
 namespace {
 
-constexpr double cell = 0.02;
+constexpr double cell = 0.01;
 constexpr double heel = 15 * degree;
 
 sim::Case held_ship() {
@@ -37,9 +37,9 @@ sim::Case held_ship() {
   sim::Stage stage;
   stage.mesh.hull_cell = cell;
   stage.mesh.hull_sweep = 16 * degree;
-  stage.mesh.hull_margin = 0.08;
+  stage.mesh.hull_margin = 4 * cell;
   stage.mesh.hull_heave = 0.01;
-  stage.mesh.surface = {{4 * cell, 0.04}};
+  stage.mesh.surface = {{0.08, 0.04}};
   c.stages = {stage};
   return c;
 }
