@@ -283,6 +283,8 @@ void CascadeRun<Dim>::map_to_stage(int index) {
   const double cpu_before = process_cpu_seconds();
   auto old = std::move(simulation_);
   old->polish();
+  const WaterBalance water_before = old->water();
+  const std::vector<double> compartments_before = old->compartment_volumes();
   auto forest = make_forest(*model_, stage.mesh, context_.threads);
   transfer::FlowFields<Dim> from, to;
   from.vof = std::move(old->state().vof);
@@ -301,6 +303,15 @@ void CascadeRun<Dim>::map_to_stage(int index) {
   simulation_->set_exchanged(old->exchanged());
   const auto [before, after] = simulation_->adopt(std::move(state), old->body(), old->time(), old->steps(),
                                                   old->dt(), old->reservoirs(), &free_cells);
+  // The cells at the hull are filled anew on the new mesh and show a little more or less water than before.
+  double of_sea = water_before.visible - simulation_->water().visible;
+  const std::vector<double> compartments_after = simulation_->compartment_volumes();
+  for (std::size_t i = 0; i < compartments_before.size(); ++i) {
+    const double lost = compartments_before[i] - compartments_after[i];
+    simulation_->owe(1 + static_cast<int>(i), lost);
+    of_sea -= lost;
+  }
+  simulation_->owe(0, of_sea);
   begin_stage(index);
   stage_.has_mapping = true;
   stage_.mapping = {report.method, process_cpu_seconds() - cpu_before, report.vof_min, report.vof_max,

@@ -123,6 +123,10 @@ class Simulation {
   void set_exchanged(double volume) { exchanged_ = volume; }
   double exchanged() const { return exchanged_; }
   const std::map<int, double>& reservoirs() const { return book_.reservoirs(); }
+  /// Adds to what the volume book owes to a space (0 sea, 1 + compartment) [m^Dim]: what was lost elsewhere.
+  void owe(int space, double volume) {
+    if (mask_) book_.reservoirs()[space] += volume;
+  }
   /// Visible water in each compartment [m^Dim].
   std::vector<double> compartment_volumes() const;
   /// Height of the surface over z = 0 at a place: water in the column of cells less the depth there [m].
