@@ -114,7 +114,7 @@ void plot_plans(const std::vector<Plan>& plans, const v1::Job& job, const std::s
       if (std::isfinite(z)) largest = std::max(largest, std::abs(z));
   std::ostringstream s;
   s << "set terminal pngcairo size " << 60 + 420 * plans.size() << ",800 font ',11'\nset output '"
-    << gnuplot_text(absolute(path)) << "'\nset datafile missing 'NaN'\nset multiplot layout 1," << plans.size()
+    << gnuplot_text(absolute(path)) << "'\nset multiplot layout 1," << plans.size()
     << " title '" << gnuplot_text(job.title()) << "' noenhanced\nset size ratio -1\nset key off\nset cbrange ["
     << -largest << ":" << largest
     << "]\nset palette defined (-1 '#2166ac', 0 '#f7f7f7', 1 '#b2182b')\nset cblabel 'elevation [mm]'\n"
