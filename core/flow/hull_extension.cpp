@@ -91,7 +91,6 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
     return false;
   };
   front_.clear();  // cells that see water, but only above or below them
-  std::vector<double> seen;
   for (int layer = 1; layer <= extension_layers; ++layer) {
     list_.clear();
     next_.clear();
@@ -138,7 +137,6 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
         value = level / level_weight;
       } else if (layer == 1 && level_weight == 0 && value > 0.5) {
         front_.push_back(at);
-        seen.push_back(value);
       }
       next_.push_back(value);
     });
@@ -147,25 +145,21 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
       layer_[static_cast<std::size_t>(list_[k])] = static_cast<signed char>(layer);
     }
   }
-  level_off(mask, seen, vof);
+  level_off(mask.window(), vof);
 }
 
 /// Over water under a flat bottom or counter the extension found water, however high the cell lies. If the surface
 /// is near, it has to go on level from the hull's sides instead: values are carried along the rows of the cells in
 /// `front_` and what lies around them, and the lower of the two counts.
 template <int Dim>
-void HullExtension<Dim>::level_off(const HullMask<Dim>& mask, const std::vector<double>& seen,
-                                   std::vector<double>& vof) {
+void HullExtension<Dim>::level_off(const HullWindow<Dim>& window, std::vector<double>& vof) {
   if (front_.empty()) return;
-  const HullWindow<Dim>& window = mask.window();
   constexpr signed char waiting = 100;
   std::vector<int> open = front_;
   // Deeper layers were filled from the same cells.
-  for_box<Dim>(filled<Dim>(1), [&] {
-    IVec<Dim> upper = window.n();
-    for (int& u : upper) --u;
-    return upper;
-  }(), [&](const IVec<Dim>& i) {
+  IVec<Dim> upper = window.n();
+  for (int& u : upper) --u;
+  for_box<Dim>(filled<Dim>(1), upper, [&](const IVec<Dim>& i) {
     const int at = window.at(i);
     if (layer_[static_cast<std::size_t>(at)] > 1 && vof[static_cast<std::size_t>(at)] > 0.5) open.push_back(at);
   });
@@ -202,7 +196,6 @@ void HullExtension<Dim>::level_off(const HullMask<Dim>& mask, const std::vector<
       layer_[static_cast<std::size_t>(list_[k])] = 1;
     }
   }
-  (void)seen;
 }
 
 template <int Dim>

@@ -27,7 +27,7 @@ class HullExtension {
                        std::vector<double>& u);
 
  private:
-  void level_off(const HullMask<Dim>& mask, const std::vector<double>& seen, std::vector<double>& vof);
+  void level_off(const HullWindow<Dim>& window, std::vector<double>& vof);
 
   std::vector<signed char> layer_, face_space_;
   std::vector<double> next_;

@@ -25,12 +25,6 @@ inline constexpr double smallest_aperture = 0.005;
 /// How walls between spaces hold water: as solid that the cells resolve, or by the space of each cell.
 enum class Walls { resolved, thin };
 
-/// Space of a cell in an opening: joined to all others.
-inline constexpr signed char passage = -1;
-
-/// Whether a wall lies between two cells, by their spaces.
-inline bool apart(signed char a, signed char b) { return a != b && a >= 0 && b >= 0; }
-
 /// The hull at one pose, sampled on the window.
 template <int Dim>
 struct HullGeometry {

@@ -171,8 +171,7 @@ Plane<Dim> interface_plane(const HullWindow<Dim>& window, const std::vector<doub
     for (int a = 0; a < Dim; ++a) index += o[a] * window.stride(a);
     stencil[e] = vof[static_cast<std::size_t>(index)];
     if (!spaces.empty()) {
-      const signed char own = spaces[static_cast<std::size_t>(at)], other = spaces[static_cast<std::size_t>(index)];
-      behind[e] = own != other && own >= 0 && other >= 0;
+      behind[e] = apart(spaces[static_cast<std::size_t>(at)], spaces[static_cast<std::size_t>(index)]);
       any = any || behind[e];
     }
     ++e;

@@ -1,8 +1,8 @@
 // A box of whole finest-level blocks around the hull, held as dense arrays: everything that happens at
 // the hull (apertures, extension into it, volume book) works on plain indices here and never meets a block
 // edge or a level jump. Blocks in the box that the hull cannot touch may be coarser: the window has no tile there,
-// its entries keep what "far from the hull" means in each array (0 where fields are loaded). Cells and faces share one layout: entry (i, j[, k]), 0 <= i <= n, axis 0 fastest;
-// face i of an axis lies on the lower side of cell i.
+// its entries keep what "far from the hull" means in each array (0 where fields are loaded). Cells and faces share
+// one layout: entry (i, j[, k]), 0 <= i <= n, axis 0 fastest; face i of an axis lies on the lower side of cell i.
 #pragma once
 
 #include <functional>
@@ -17,6 +17,12 @@ using field::CellField;
 using field::FaceField;
 using mesh::BlockShape;
 using mesh::Forest;
+
+/// Space of a cell in an opening: joined to all others.
+inline constexpr signed char passage = -1;
+
+/// Whether a wall lies between two cells, by their spaces.
+inline bool apart(signed char a, signed char b) { return a != b && a >= 0 && b >= 0; }
 
 template <int Dim>
 class HullWindow {
