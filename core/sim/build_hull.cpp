@@ -49,6 +49,16 @@ double hull_cell(const Case& c, const Stage& stage) {
   return actual_cell(c.base_cell, wanted);
 }
 
+HullCells hull_cells(const Case& c) {
+  HullCells cells{c.base_cell, 0};
+  for (const Stage& stage : c.stages) {
+    const double cell = hull_cell(c, stage);
+    cells.finest = std::min(cells.finest, cell);
+    cells.coarsest = std::max(cells.coarsest, cell);
+  }
+  return cells;
+}
+
 std::string file_beside_case(const std::string& name, const std::string& folder) {
   const std::filesystem::path file(name);
   if (file.empty() || file.is_absolute() || folder.empty()) return name;
@@ -77,8 +87,7 @@ hull::SectionSpec section_spec(const Hull& hull, const std::string& folder) {
 }
 
 bool has_thin_walls(const Case& c) {
-  double coarsest = 0, thinnest = 1e300;
-  for (const Stage& stage : c.stages) coarsest = std::max(coarsest, hull_cell(c, stage));
+  double thinnest = 1e300;
   for (const Compartment& compartment : c.hull.compartments)
     thinnest = std::min(thinnest, compartment.wall_thickness);
   for (std::size_t i = 0; i < c.hull.compartments.size(); ++i)
@@ -90,13 +99,11 @@ bool has_thin_walls(const Case& c) {
       if (gap > 1e-9) thinnest = std::min(thinnest, gap);
     }
   // A stretched base cell may be a little larger; the rule is about the nominal one.
-  return thinnest < cells_per_wall * coarsest * (1 - 1e-6);
+  return thinnest < cells_per_wall * hull_cells(c).coarsest * (1 - 1e-6);
 }
 
 double opening_reach(const Case& c) {
-  double coarsest = 0;
-  for (const Stage& stage : c.stages) coarsest = std::max(coarsest, hull_cell(c, stage));
-  return 2 * coarsest * std::max(1.0, c.stretch_x);
+  return 2 * hull_cells(c).coarsest * std::max(1.0, c.stretch_x);
 }
 
 std::vector<bool> open_compartments(const Hull& hull) {
@@ -108,14 +115,9 @@ std::vector<bool> open_compartments(const Hull& hull) {
 std::shared_ptr<const hull::SectionHull> build_section_hull(const Case& c) {
   if (c.hull.shape == Hull::Shape::none) return nullptr;
   SEAWAY_CHECK(!c.stages.empty(), "the case has no stages; at least one is needed");
-  double finest = c.base_cell, coarsest = 0;
-  for (const Stage& stage : c.stages) {
-    const double cell = hull_cell(c, stage);
-    finest = std::min(finest, cell);
-    coarsest = std::max(coarsest, cell);
-  }
+  const HullCells cells = hull_cells(c);
   return std::make_shared<hull::SectionHull>(hull::build_section(section_spec(c.hull, c.folder)),
-                                             0.5 * finest, 16 * coarsest, opening_reach(c));
+                                             0.5 * cells.finest, 16 * cells.coarsest, opening_reach(c));
 }
 
 double start_draft(const Case& c, const hull::Section& section) {

@@ -25,6 +25,13 @@ double actual_cell(double base_cell, double wanted);
 /// around the hull's start position at the calm level, else the base cell.
 double hull_cell(const Case& c, const Stage& stage);
 
+/// Hull cells of the stages [m]; the finest is not larger than the base cell.
+struct HullCells {
+  double finest = 0, coarsest = 0;
+};
+/// Before: there is a stage.
+HullCells hull_cells(const Case& c);
+
 /// A file that a case names: relative names are looked up in its folder.
 std::string file_beside_case(const std::string& name, const std::string& folder);
 

@@ -65,16 +65,11 @@ hull::Surface outer_surface(const Hull& hull, const std::string& folder) {
 std::shared_ptr<const hull::SurfaceHull> build_surface_hull(const Case& c) {
   if (c.hull.shape == Hull::Shape::none) return nullptr;
   SEAWAY_CHECK(!c.stages.empty(), "the case has no stages; at least one is needed");
-  double finest = c.base_cell, coarsest = 0;
-  for (const Stage& stage : c.stages) {
-    const double cell = hull_cell(c, stage);
-    finest = std::min(finest, cell);
-    coarsest = std::max(coarsest, cell);
-  }
+  const HullCells cells = hull_cells(c);
   hull::Ship ship = hull::build_ship(ship_spec(c.hull, c.folder));
-  const double margin = 8 * coarsest;
+  const double margin = 8 * cells.coarsest;
   const double spacing =
-      std::max(0.5 * finest, hull::DistanceGrid::finest_spacing(hull::bounds_of(ship.outer), margin));
+      std::max(0.5 * cells.finest, hull::DistanceGrid::finest_spacing(hull::bounds_of(ship.outer), margin));
   return std::make_shared<hull::SurfaceHull>(std::move(ship), spacing, margin, opening_reach(c));
 }
 
