@@ -109,16 +109,6 @@ Polygon offsets_polygon(const SectionSpec& spec) {
   return closed_polygon(p);
 }
 
-bool is_valid(const Box<2>& box, int axis) {
-  return box.lower[axis] > -largest && box.upper[axis] < largest &&
-         box.upper[axis] - box.lower[axis] > raster;
-}
-
-std::string text(const Box<2>& box) {
-  return fmt::format("({}, {}) to ({}, {})", box.lower.x(), box.lower.y(), box.upper.x(),
-                     box.upper.y());
-}
-
 Polygon grown(const Box<2>& box) {
   return box_polygon({box.lower.array() - touch, box.upper.array() + touch});
 }
@@ -132,7 +122,7 @@ class ProblemFinder {
  public:
   ProblemFinder(const SectionSpec& spec, const Polygon& outer) : spec_(spec), outer_(outer) {}
 
-  std::vector<SectionProblem> run() {
+  std::vector<ShapeProblem> run() {
     for (std::size_t i = 0; i < spec_.compartments.size(); ++i) check_compartment(i);
     if (problems_.empty()) {
       check_overlaps();
@@ -147,33 +137,13 @@ class ProblemFinder {
     problems_.push_back({std::move(where), std::move(message), std::move(hint)});
   }
 
-  void check_box(const std::string& where, const char* what, const std::string& name,
-                 const Box<2>& box) {
-    for (int axis = 0; axis < 2; ++axis)
-      if (!is_valid(box, axis))
-        add(where + (axis == 0 ? ".y" : ".z"),
-            fmt::format("{} '{}' reaches from {} to {} m", what, name, box.lower[axis],
-                        box.upper[axis]),
-            "give two finite numbers, the lower one first");
-  }
-
   void check_compartment(std::size_t i) {
     const CompartmentSpec& c = spec_.compartments[i];
     const std::string where = fmt::format("compartments[{}]", i);
     spaces_.emplace_back();
-    const std::size_t before = problems_.size();
-    check_box(where, "compartment", c.name, c.box);
-    if (!(c.wall_thickness >= 0 && c.wall_thickness < largest))
-      add(where + ".wall_thickness", fmt::format("{} m; it must be 0 or more", c.wall_thickness),
-          "give the thickness of the shell in metres");
-    if (!(c.permeability > 0 && c.permeability <= 1))
-      add(where + ".permeability",
-          fmt::format("{}; allowed: above 0 and at most 1", c.permeability),
-          "leave the compartment out if no water can enter it");
-    for (std::size_t k = 0; k < c.openings.size(); ++k)
-      check_box(fmt::format("{}.openings[{}]", where, k), "opening", c.openings[k].name,
-                c.openings[k].box);
-    if (problems_.size() > before) return;
+    const auto wrong = find_number_problems<2>(where, c, raster, largest);
+    problems_.insert(problems_.end(), wrong.begin(), wrong.end());
+    if (!wrong.empty()) return;
     spaces_.back() = space_of(c, outer_);
     if (area_of(spaces_.back()) <= raster)
       add(where,
@@ -227,7 +197,7 @@ class ProblemFinder {
   const SectionSpec& spec_;
   const Polygon& outer_;
   std::vector<Polygons> spaces_;
-  std::vector<SectionProblem> problems_;
+  std::vector<ShapeProblem> problems_;
 };
 
 }  // namespace
@@ -250,7 +220,7 @@ Polygon outer_polygon(const SectionSpec& spec) {
   fail(ErrorCode::internal, "unknown section shape {}", static_cast<int>(spec.shape));
 }
 
-std::vector<SectionProblem> find_compartment_problems(const SectionSpec& spec,
+std::vector<ShapeProblem> find_compartment_problems(const SectionSpec& spec,
                                                       const Polygon& outer) {
   return ProblemFinder(spec, outer).run();
 }

@@ -11,21 +11,9 @@
 #include <vector>
 
 #include "core/hull/boolean.hpp"
+#include "core/hull/compartment_spec.hpp"
 
 namespace seaway::hull {
-
-struct OpeningSpec {
-  std::string name;
-  Box<2> box;  ///< every wall inside it is taken away
-};
-
-struct CompartmentSpec {
-  std::string name;
-  Box<2> box;
-  double wall_thickness = 0;  ///< left between the compartment and the outer surface, >= 0
-  double permeability = 1;    ///< part of the space that water can fill, 0 < p <= 1
-  std::vector<OpeningSpec> openings;
-};
 
 struct SectionSpec {
   enum class Shape { box, rounded_box, polygon, offsets };
@@ -53,14 +41,6 @@ struct Section {
   std::vector<WeightedLoop> solid;  ///< walls with weight 1, then porous spaces with 1 - p
 };
 
-/// One thing that is wrong with a description.
-struct SectionProblem {
-  std::string
-      where;  ///< member of SectionSpec: "compartments[1].openings[0].y" (y, z: extents of the box)
-  std::string message;  ///< the value, and what is allowed
-  std::string hint;     ///< what to do
-};
-
 /// Outer polygon, anticlockwise. Throws Error: invalid_argument (sizes that are not positive or not
 /// finite, a polygon that is open, too short, flat or crosses itself, offsets as in
 /// offsets_table.hpp), not_found (offsets file).
@@ -69,7 +49,7 @@ Polygon outer_polygon(const SectionSpec& spec);
 /// Everything that build_section would throw for the compartments and openings, and what is legal
 /// but useless: an opening that cuts no wall of its compartment or leads nowhere, a compartment
 /// outside the hull, two compartments that overlap. `outer` comes from outer_polygon(spec).
-std::vector<SectionProblem> find_compartment_problems(const SectionSpec& spec,
+std::vector<ShapeProblem> find_compartment_problems(const SectionSpec& spec,
                                                       const Polygon& outer);
 
 /// The whole section. Throws Error(invalid_argument) with the first problem.

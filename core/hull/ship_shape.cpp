@@ -22,11 +22,6 @@ constexpr const char* thinner =
     "make the wall thinner than the smallest radius of the hull there, or keep the box away from "
     "narrow parts";
 
-std::string text(const Box<3>& box) {
-  return fmt::format("({}, {}, {}) to ({}, {}, {})", box.lower.x(), box.lower.y(), box.lower.z(),
-                     box.upper.x(), box.upper.y(), box.upper.z());
-}
-
 Box<3> grown(const Box<3>& box) { return {box.lower.array() - touch, box.upper.array() + touch}; }
 
 double volume_of(const Surface& s) { return enclosed_volume(s); }
@@ -41,7 +36,7 @@ class ProblemFinder {
  public:
   ProblemFinder(const ShipSpec& spec, const Surface& outer) : spec_(spec), outer_(outer) {}
 
-  std::vector<SectionProblem> run() {
+  std::vector<ShapeProblem> run() {
     for (std::size_t i = 0; i < spec_.compartments.size(); ++i) check_compartment(i);
     if (problems_.empty()) check_overlaps();
     if (problems_.empty()) {
@@ -58,34 +53,13 @@ class ProblemFinder {
     problems_.push_back({std::move(where), std::move(message), std::move(hint)});
   }
 
-  void check_box(const std::string& where, const char* what, const std::string& name,
-                 const Box<3>& box) {
-    static constexpr const char* axes[] = {".x", ".y", ".z"};
-    for (int a = 0; a < 3; ++a)
-      if (!(box.lower[a] > -largest && box.upper[a] < largest &&
-            box.upper[a] - box.lower[a] > touch))
-        add(where + axes[a],
-            fmt::format("{} '{}' reaches from {} to {} m", what, name, box.lower[a], box.upper[a]),
-            "give two finite numbers, the lower one first");
-  }
-
   void check_compartment(std::size_t i) {
     const ShipCompartmentSpec& c = spec_.compartments[i];
     const std::string where = fmt::format("compartments[{}]", i);
     spaces_.emplace_back();
-    const std::size_t before = problems_.size();
-    check_box(where, "compartment", c.name, c.box);
-    if (!(c.wall_thickness >= 0 && c.wall_thickness < largest))
-      add(where + ".wall_thickness", fmt::format("{} m; it must be 0 or more", c.wall_thickness),
-          "give the thickness of the shell in metres");
-    if (!(c.permeability > 0 && c.permeability <= 1))
-      add(where + ".permeability",
-          fmt::format("{}; allowed: above 0 and at most 1", c.permeability),
-          "leave the compartment out if no water can enter it");
-    for (std::size_t k = 0; k < c.openings.size(); ++k)
-      check_box(fmt::format("{}.openings[{}]", where, k), "opening", c.openings[k].name,
-                c.openings[k].box);
-    if (problems_.size() > before) return;
+    const auto wrong = find_number_problems<3>(where, c, touch, largest);
+    problems_.insert(problems_.end(), wrong.begin(), wrong.end());
+    if (!wrong.empty()) return;
     try {
       spaces_.back() = space_of(c, outer_);
     } catch (const Error& error) {
@@ -160,7 +134,7 @@ class ProblemFinder {
   const Surface& outer_;
   std::vector<Surface> spaces_;
   Surface walls_;
-  std::vector<SectionProblem> problems_;
+  std::vector<ShapeProblem> problems_;
 };
 
 }  // namespace
@@ -173,7 +147,9 @@ Surface surface_of(const Box<3>& box) {
   return s;
 }
 
-Surface outer_surface(const ShipSpec& spec) {
+namespace {
+
+Surface described_surface(const ShipSpec& spec) {
   switch (spec.shape) {
     case ShipSpec::Shape::box:
       return box_surface(spec.length, spec.beam, spec.height);
@@ -202,6 +178,19 @@ Surface outer_surface(const ShipSpec& spec) {
     }
   }
   fail(ErrorCode::internal, "unknown shape of a ship {}", static_cast<int>(spec.shape));
+}
+
+}  // namespace
+
+Surface outer_surface(const ShipSpec& spec) {
+  Surface outer = described_surface(spec);
+  if (const auto crossing = first_crossing(outer)) {
+    const Vec3 at = outer.vertices[outer.triangles[crossing->first][0]];
+    fail(ErrorCode::invalid_argument,
+         "the hull's surface crosses itself near ({:.4g}, {:.4g}, {:.4g}); repair it there", at.x(),
+         at.y(), at.z());
+  }
+  return outer;
 }
 
 Surface shrunk_within(const Surface& outer, const Box<3>& box, double distance) {
@@ -251,23 +240,13 @@ Surface shrunk_within(const Surface& outer, const Box<3>& box, double distance) 
   return out;
 }
 
-std::vector<SectionProblem> find_compartment_problems(const ShipSpec& spec, const Surface& outer) {
+std::vector<ShapeProblem> find_compartment_problems(const ShipSpec& spec, const Surface& outer) {
   return ProblemFinder(spec, outer).run();
 }
 
-Ship build_ship(const ShipSpec& spec) {
+Ship build_ship(const ShipSpec& spec, Surface outer) {
   Ship ship;
-  ship.outer = outer_surface(spec);
-  if (const auto crossing = first_crossing(ship.outer)) {
-    const Vec3 at = ship.outer.vertices[ship.outer.triangles[crossing->first][0]];
-    fail(ErrorCode::invalid_argument,
-         "the hull's surface crosses itself near ({:.4g}, {:.4g}, {:.4g}); repair it there", at.x(),
-         at.y(), at.z());
-  }
-  const auto problems = find_compartment_problems(spec, ship.outer);
-  if (!problems.empty())
-    fail(ErrorCode::invalid_argument, "{}: {}; {}", problems[0].where, problems[0].message,
-         problems[0].hint);
+  ship.outer = std::move(outer);
   for (const ShipCompartmentSpec& c : spec.compartments) {
     ShipCompartment space{c.name, c.permeability, space_of(c, ship.outer), {}, 0};
     space.volume = enclosed_volume(space.space);
@@ -276,6 +255,15 @@ Ship build_ship(const ShipSpec& spec) {
   }
   ship.solid = buoyant_surfaces(ship, std::vector<bool>(ship.compartments.size(), true));
   return ship;
+}
+
+Ship build_ship(const ShipSpec& spec) {
+  Surface outer = outer_surface(spec);
+  const auto problems = find_compartment_problems(spec, outer);
+  if (!problems.empty())
+    fail(ErrorCode::invalid_argument, "{}: {}; {}", problems[0].where, problems[0].message,
+         problems[0].hint);
+  return build_ship(spec, std::move(outer));
 }
 
 Solid buoyant_surfaces(const Ship& ship, const std::vector<bool>& open) {

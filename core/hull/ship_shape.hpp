@@ -13,23 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "core/hull/section_shape.hpp"
+#include "core/hull/compartment_spec.hpp"
 #include "core/hull/surface.hpp"
 
 namespace seaway::hull {
-
-struct ShipOpeningSpec {
-  std::string name;
-  Box<3> box;  ///< every wall inside it is taken away
-};
-
-struct ShipCompartmentSpec {
-  std::string name;
-  Box<3> box;
-  double wall_thickness = 0;  ///< left between the compartment and the outer surface, >= 0
-  double permeability = 1;    ///< part of the space that water can fill, 0 < p <= 1
-  std::vector<ShipOpeningSpec> openings;
-};
 
 struct ShipSpec {
   enum class Shape { box, rounded_box, cylinder, sphere, wigley, offsets, stl };
@@ -70,7 +57,11 @@ Surface shrunk_within(const Surface& outer, const Box<3>& box, double distance);
 
 /// As find_compartment_problems of a section: everything that build_ship would throw for the
 /// compartments and openings, and what is legal but useless. `where` names members of ShipSpec.
-std::vector<SectionProblem> find_compartment_problems(const ShipSpec& spec, const Surface& outer);
+std::vector<ShapeProblem> find_compartment_problems(const ShipSpec& spec, const Surface& outer);
+
+/// The ship of a spec whose outer surface is at hand. Before: outer_surface(spec) gave it and
+/// find_compartment_problems nothing.
+Ship build_ship(const ShipSpec& spec, Surface outer);
 
 /// The whole ship. Throws Error(invalid_argument) with the first problem. About a second for a
 /// hull of 30,000 triangles with a few compartments.

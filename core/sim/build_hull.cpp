@@ -9,10 +9,6 @@ namespace seaway::sim {
 
 namespace {
 
-hull::Box<2> section_box(const Vec3& lower, const Vec3& upper) {
-  return {from_vec3<2>(lower), from_vec3<2>(upper)};
-}
-
 hull::SectionSpec::Shape section_shape(Hull::Shape shape) {
   switch (shape) {
     case Hull::Shape::box:
@@ -76,13 +72,7 @@ hull::SectionSpec section_spec(const Hull& hull, const std::string& folder) {
   spec.station = hull.station;
   spec.scale = hull.scale;
   spec.extend_to = hull.extend_to;
-  for (const Compartment& from : hull.compartments) {
-    hull::CompartmentSpec to{
-        from.name, section_box(from.lower, from.upper), from.wall_thickness, from.permeability, {}};
-    for (const Opening& opening : from.openings)
-      to.openings.push_back({opening.name, section_box(opening.lower, opening.upper)});
-    spec.compartments.push_back(std::move(to));
-  }
+  spec.compartments = compartment_specs<2>(hull);
   return spec;
 }
 

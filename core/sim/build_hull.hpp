@@ -35,6 +35,23 @@ HullCells hull_cells(const Case& c);
 /// A file that a case names: relative names are looked up in its folder.
 std::string file_beside_case(const std::string& name, const std::string& folder);
 
+/// The compartments of a case as core/hull takes them; in 2-D the x of their boxes is left out.
+template <int Dim>
+std::vector<hull::CompartmentSpecOf<Dim>> compartment_specs(const Hull& hull) {
+  const auto box = [](const Vec3& lower, const Vec3& upper) {
+    return hull::Box<Dim>{from_vec3<Dim>(lower), from_vec3<Dim>(upper)};
+  };
+  std::vector<hull::CompartmentSpecOf<Dim>> specs;
+  for (const Compartment& from : hull.compartments) {
+    hull::CompartmentSpecOf<Dim> to{
+        from.name, box(from.lower, from.upper), from.wall_thickness, from.permeability, {}};
+    for (const Opening& opening : from.openings)
+      to.openings.push_back({opening.name, box(opening.lower, opening.upper)});
+    specs.push_back(std::move(to));
+  }
+  return specs;
+}
+
 /// Before: shape is not none. Throws nothing; wrong values show in build_section.
 hull::SectionSpec section_spec(const Hull& hull, const std::string& folder);
 

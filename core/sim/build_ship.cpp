@@ -50,11 +50,7 @@ hull::ShipSpec ship_spec(const Hull& hull, const std::string& folder) {
   spec.scale = hull.scale;
   spec.extend_to = hull.extend_to;
   spec.unit = hull.unit;
-  for (const Compartment& from : hull.compartments) {
-    hull::ShipCompartmentSpec to{from.name, {from.lower, from.upper}, from.wall_thickness, from.permeability, {}};
-    for (const Opening& opening : from.openings) to.openings.push_back({opening.name, {opening.lower, opening.upper}});
-    spec.compartments.push_back(std::move(to));
-  }
+  spec.compartments = compartment_specs<3>(hull);
   return spec;
 }
 

@@ -106,7 +106,7 @@ void check_hull(CheckState& s) {
     return;
   }
   const auto problems = hull::find_compartment_problems(spec, outer);
-  for (const hull::SectionProblem& p : problems)
+  for (const hull::ShapeProblem& p : problems)
     s.findings.error(case_field(p.where), p.message, p.hint);
   if (problems.empty()) s.section = hull::build_section(spec);
 }

@@ -138,10 +138,10 @@ void check_ship_hull(CheckState& s) {
   check_compartment_use(s);
   try {
     const hull::ShipSpec spec = ship_spec(s.c.hull, s.c.folder);
-    const hull::Surface outer = hull::outer_surface(spec);
+    hull::Surface outer = hull::outer_surface(spec);
     const auto problems = hull::find_compartment_problems(spec, outer);
-    for (const hull::SectionProblem& p : problems) s.findings.error(case_field(p.where), p.message, p.hint);
-    if (problems.empty()) s.ship = hull::build_ship(spec);
+    for (const hull::ShapeProblem& p : problems) s.findings.error(case_field(p.where), p.message, p.hint);
+    if (problems.empty()) s.ship = hull::build_ship(spec, std::move(outer));
   } catch (const Error& error) {
     const Culprit culprit = culprit_of(s.c.hull.shape);
     const bool no_file = error.code() == ErrorCode::not_found && is_from_file(s.c.hull.shape);

@@ -120,7 +120,7 @@ TEST(ShipShape, Dtmb5415WithTwoCompartments) {
   EXPECT_NEAR(holes, 2 * 0.06 * 0.04 * 0.004, 4e-6);
 }
 
-std::vector<SectionProblem> problems_of(const ShipSpec& spec) {
+std::vector<ShapeProblem> problems_of(const ShipSpec& spec) {
   return find_compartment_problems(spec, outer_surface(spec));
 }
 
