@@ -5,10 +5,9 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include "core/base/error.hpp"
+#include "core/io/whole_file.hpp"
 
 namespace seaway::io {
 namespace {
@@ -73,13 +72,7 @@ void write_vtp(const PolygonMesh& mesh, const std::string& path) {
 <AppendedData encoding="raw">_)",
       mesh.points.size(), mesh.polygons.size(), values, array("Float32", "points", 3, data.add(points)),
       array("Int64", "connectivity", 1, data.add(corners)), array("Int64", "offsets", 1, data.add(ends)));
-  const std::string aside = path + ".part";
-  {
-    std::ofstream file(aside, std::ios::binary);
-    file << text << data.bytes() << "\n</AppendedData>\n</VTKFile>\n";
-    if (!file.flush()) fail(ErrorCode::unavailable, "cannot write {}", path);
-  }
-  std::filesystem::rename(aside, path);
+  write_whole_file(path, {text, data.bytes(), "\n</AppendedData>\n</VTKFile>\n"});
 }
 
 }  // namespace seaway::io

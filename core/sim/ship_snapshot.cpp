@@ -2,30 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.hpp"
 #include "core/flow/plane_cut.hpp"
 #include "core/hull/surface_cut.hpp"
 #include "core/hull/surface_hull.hpp"
+#include "core/io/whole_file.hpp"
 
 namespace seaway::sim {
 namespace {
 
 using mesh::BlockShape;
 using nlohmann::json;
-
-void write_json(const json& content, const std::string& path) {
-  const std::string aside = path + ".part";
-  {
-    std::ofstream file(aside);
-    file << content.dump();
-    if (!file.flush()) fail(ErrorCode::unavailable, "cannot write {}", path);
-  }
-  std::filesystem::rename(aside, path);
-}
 
 bool in_solid(const Simulation<3>& s, const Vec3& x) {
   const auto& m = s.model();
@@ -123,7 +111,7 @@ void write_section(Simulation<3>& s, double x, int stage, const std::string& pat
   });
   out["surface"] = surface;
   out["hull"] = hull_outline(s, 0, x);
-  write_json(out, path);
+  io::write_whole_file(path, {out.dump()});
 }
 
 void write_plan(Simulation<3>& s, int stage, int squares, const std::string& path) {
@@ -158,7 +146,7 @@ void write_plan(Simulation<3>& s, int stage, int squares, const std::string& pat
   }
   out["elevation_mm"] = std::move(rows);
   out["waterline"] = hull_outline(s, 2, 0.0);
-  write_json(out, path);
+  io::write_whole_file(path, {out.dump()});
 }
 
 }  // namespace seaway::sim

@@ -1,13 +1,10 @@
 #include "core/sim/snapshot.hpp"
 
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.hpp"
 #include "core/flow/plane_cut.hpp"
 #include "core/hull/section_hull.hpp"
+#include "core/io/whole_file.hpp"
 
 namespace seaway::sim {
 
@@ -51,13 +48,7 @@ void write_section(Simulation<2>& s, int stage, const std::string& path) {
     }
   }
   out["hull"] = loops;
-  const std::string aside = path + ".part";
-  {
-    std::ofstream file(aside);
-    file << out.dump();
-    if (!file.flush()) fail(ErrorCode::unavailable, "cannot write {}", path);
-  }
-  std::filesystem::rename(aside, path);
+  io::write_whole_file(path, {out.dump()});
 }
 
 }  // namespace seaway::sim
