@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plot: roll and heave histories with the stage changes, and the free surface around the section.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -106,36 +105,6 @@ std::string download(JobClient& client, const std::string& job, const std::strin
   return text;
 }
 
-/// The free surface from above at a few instants, side by side: heights in colour, the ship's waterline.
-void plot_plans(const std::vector<Plan>& plans, const v1::Job& job, const std::string& path) {
-  double largest = 1;  // [mm]
-  for (const Plan& p : plans)
-    for (const double z : p.elevation_mm)
-      if (std::isfinite(z)) largest = std::max(largest, std::abs(z));
-  std::ostringstream s;
-  s << "set terminal pngcairo size " << 60 + 420 * plans.size() << ",800 font ',11'\nset output '"
-    << gnuplot_text(absolute(path)) << "'\nset multiplot layout 1," << plans.size()
-    << " title '" << gnuplot_text(job.title()) << "' noenhanced\nset size ratio -1\nset key off\nset cbrange ["
-    << -largest << ":" << largest
-    << "]\nset palette defined (-1 '#2166ac', 0 '#f7f7f7', 1 '#b2182b')\nset cblabel 'elevation [mm]'\n"
-    << "set xlabel 'x [m], forward'\nset ylabel 'y [m], to port'\n";
-  std::map<std::string, std::string> data;
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    const Plan& p = plans[i];
-    const std::string heights = "plan" + std::to_string(i) + ".dat", outline = "hull" + std::to_string(i) + ".dat";
-    data[heights] = to_grid(p);
-    data[outline] = to_blocks(p.waterline, true);
-    char time[32];
-    std::snprintf(time, sizeof time, "t = %.2f s", p.time_s);
-    s << "set title '" << time << "'\nset xrange [" << p.x_bounds()[0] << ":" << p.x_bounds()[1] << "]\nset yrange ["
-      << p.y_bounds()[0] << ":" << p.y_bounds()[1] << "]\nplot '" << heights << "' using 1:2:3 with image";
-    if (!data[outline].empty()) s << ", '" << outline << "' with lines lw 1.5 lc rgb 'black'";
-    s << "\n";
-  }
-  s << "unset multiplot\n";
-  run_gnuplot(s.str(), data);
-}
-
 void plot_section(const Section& section, const v1::Job& job, const std::string& path) {
   std::array<double, 2> y = section.y_bounds, z = section.z_bounds;
   if (!section.hull.empty()) {
@@ -188,7 +157,7 @@ int plot(JobClient& client, const std::string& name, const std::string& folder, 
     plans.push_back(parse_plan(download(client, job.name(), artifact)));
   if (!plans.empty()) {
     written.push_back((fs::path(folder) / (job.uid() + "_plan.png")).string());
-    plot_plans(plans, job, written.back());
+    draw_plans(plans, job.title(), written.back());
   }
   if (json) {
     std::string list;

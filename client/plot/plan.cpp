@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "client/plot/plan.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "client/job_client.hpp"
+#include "client/plot/gnuplot.hpp"
 
 namespace seaway::client {
 
@@ -48,6 +53,35 @@ std::string to_grid(const Plan& p) {
     out += "\n";
   }
   return out;
+}
+
+void draw_plans(const std::vector<Plan>& plans, const std::string& title, const std::string& path) {
+  double largest = 1;  // [mm]
+  for (const Plan& p : plans)
+    for (const double z : p.elevation_mm)
+      if (std::isfinite(z)) largest = std::max(largest, std::abs(z));
+  std::ostringstream s;
+  s << "set terminal pngcairo size " << 60 + 420 * plans.size() << ",800 font ',11'\nset output '"
+    << gnuplot_text(std::filesystem::absolute(path).lexically_normal().string()) << "'\nset multiplot layout 1," << plans.size()
+    << " title '" << gnuplot_text(title) << "' noenhanced\nset size ratio -1\nset key off\nset cbrange ["
+    << -largest << ":" << largest
+    << "]\nset palette defined (-1 '#2166ac', 0 '#f7f7f7', 1 '#b2182b')\nset cblabel 'elevation [mm]'\n"
+    << "set xlabel 'x [m], forward'\nset ylabel 'y [m], to port'\n";
+  std::map<std::string, std::string> data;
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    const Plan& p = plans[i];
+    const std::string heights = "plan" + std::to_string(i) + ".dat", outline = "hull" + std::to_string(i) + ".dat";
+    data[heights] = to_grid(p);
+    data[outline] = to_blocks(p.waterline, true);
+    char time[32];
+    std::snprintf(time, sizeof time, "t = %.2f s", p.time_s);
+    s << "set title '" << time << "'\nset xrange [" << p.x_bounds()[0] << ":" << p.x_bounds()[1] << "]\nset yrange ["
+      << p.y_bounds()[0] << ":" << p.y_bounds()[1] << "]\nplot '" << heights << "' using 1:2:3 with image";
+    if (!data[outline].empty()) s << ", '" << outline << "' with lines lw 1.5 lc rgb 'black'";
+    s << "\n";
+  }
+  s << "unset multiplot\n";
+  run_gnuplot(s.str(), data);
 }
 
 }  // namespace seaway::client

@@ -34,4 +34,8 @@ Plan parse_plan(const std::string& json);
 /// "x y z" lines as gnuplot's image style reads them, a blank line after each row.
 std::string to_grid(const Plan& plan);
 
+/// PNG of the free surface from above at a few instants, side by side: heights in colour, the ship's waterline.
+/// Throws ClientError as run_gnuplot.
+void draw_plans(const std::vector<Plan>& plans, const std::string& title, const std::string& path);
+
 }  // namespace seaway::client

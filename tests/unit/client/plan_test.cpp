@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "client/job_client.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace seaway::client {
 namespace {
@@ -34,6 +36,17 @@ TEST(Plan, RefusesWhatIsNone) {
 TEST(Plan, GridHasARowForEachY) {
   EXPECT_EQ(to_grid(parse_plan(two_by_three)),
             "-1 0 1\n1 0 2\n\n-1 0.5 NaN\n1 0.5 4\n\n-1 1 5\n1 1 6\n\n");
+}
+
+// Squares under the hull once made gnuplot refuse the whole grid.
+TEST(Plan, IsDrawnWithSquaresUnderTheHull) {
+  const testing::TempFolder folder;
+  const std::string picture = folder / "plan.png";
+  draw_plans({parse_plan(two_by_three), parse_plan(two_by_three)}, "a ship's title", picture);
+  std::ifstream file(picture, std::ios::binary);
+  std::string head(4, '\0');
+  file.read(head.data(), 4);
+  EXPECT_EQ(head, "\x89PNG");
 }
 
 }  // namespace
