@@ -1,6 +1,7 @@
 #include "core/sim/build_hull.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "core/base/error.hpp"
@@ -117,6 +118,27 @@ double start_draft(const Case& c, const hull::Section& section) {
   SEAWAY_CHECK(draft, "mass {} kg/m exceeds what the hull can displace, {} kg/m; it cannot float",
                c.body.mass, c.fluids.rho_water * hull::hydrostatics(solid, {1e9, 0.0}).area);
   return *draft;
+}
+
+NaturalPeriods natural_periods(const Case& c, double gm, double waterplane) {
+  const auto is_free = [&](Dof dof) {
+    return std::find(c.body.free.begin(), c.body.free.end(), dof) != c.body.free.end();
+  };
+  NaturalPeriods periods;
+  const double weight = c.body.mass * c.fluids.gravity;
+  // Rough added inertia: a quarter of the dry one in roll, the mass in heave.
+  if (is_free(Dof::roll) && gm > 0)
+    periods.roll = 2 * pi * c.body.gyradii.x() * std::sqrt(1.25 * c.body.mass / (weight * gm));
+  const double stiffness = c.fluids.rho_water * c.fluids.gravity * waterplane;
+  if (is_free(Dof::heave) && stiffness > 0)
+    periods.heave = 2 * pi * std::sqrt(2 * c.body.mass / stiffness);
+  return periods;
+}
+
+NaturalPeriods natural_periods(const Case& c, const hull::Section& section, double draft) {
+  const auto loops = hull::buoyant_loops(section, open_compartments(c.hull));
+  return natural_periods(c, hull::metacentric_height(loops, {draft, 0}, from_vec3<2>(c.body.cog)),
+                         hull::hydrostatics(loops, {draft, 0}).waterplane_breadth);
 }
 
 }  // namespace seaway::sim

@@ -78,4 +78,12 @@ std::shared_ptr<const hull::SectionHull> build_section_hull(const Case& c);
 /// with the flooded compartments open. Throws Error(invalid_argument) if it does not float.
 double start_draft(const Case& c, const hull::Section& section);
 
+/// Rough natural periods of the free motions about a draft [s]; 0: not free, or none.
+struct NaturalPeriods {
+  double heave = 0, roll = 0;
+};
+/// From GM [m] and the area of the waterplane [m2], in 2-D its breadth [m].
+NaturalPeriods natural_periods(const Case& c, double gm, double waterplane);
+NaturalPeriods natural_periods(const Case& c, const hull::Section& section, double draft);
+
 }  // namespace seaway::sim

@@ -1,10 +1,8 @@
 #include "core/sim/build_ship.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/error.hpp"
-#include "core/sim/build_hull.hpp"
 
 namespace seaway::sim {
 
@@ -79,19 +77,10 @@ double start_draft(const Case& c, const hull::Ship& ship) {
 }
 
 NaturalPeriods natural_periods(const Case& c, const hull::Ship& ship, double draft) {
-  NaturalPeriods periods;
-  const auto is_free = [&](Dof dof) {
-    return std::find(c.body.free.begin(), c.body.free.end(), dof) != c.body.free.end();
-  };
   const hull::Solid solid = hull::buoyant_surfaces(ship, open_compartments(c.hull));
   const hull::ShipHydrostatics water = hull::hydrostatics(solid, {draft, 0, 0});
-  const double gm = hull::metacentric_heights(water, {draft, 0, 0}, c.body.cog).transverse;
-  const double g = c.fluids.gravity;
-  // Rough added inertia: a quarter of the dry one in roll, the mass in heave.
-  if (is_free(Dof::roll) && gm > 0) periods.roll = 2 * pi * c.body.gyradii.x() * std::sqrt(1.25 / (g * gm));
-  const double stiffness = c.fluids.rho_water * g * water.waterplane_area;
-  if (is_free(Dof::heave) && stiffness > 0) periods.heave = 2 * pi * std::sqrt(2 * c.body.mass / stiffness);
-  return periods;
+  return natural_periods(c, hull::metacentric_heights(water, {draft, 0, 0}, c.body.cog).transverse,
+                         water.waterplane_area);
 }
 
 }  // namespace seaway::sim

@@ -6,7 +6,7 @@
 
 #include "core/hull/ship_hydrostatics.hpp"
 #include "core/hull/surface_hull.hpp"
-#include "core/sim/case.hpp"
+#include "core/sim/build_hull.hpp"
 
 namespace seaway::sim {
 
@@ -27,10 +27,7 @@ std::shared_ptr<const hull::SurfaceHull> build_surface_hull(const Case& c);
 /// ship floats with the flooded compartments open. Throws Error(invalid_argument) if it does not float.
 double start_draft(const Case& c, const hull::Ship& ship);
 
-/// Rough natural periods of the free motions about a draft [s]; 0: not free, or none.
-struct NaturalPeriods {
-  double heave = 0, roll = 0;
-};
+/// As for a section (build_hull.hpp).
 NaturalPeriods natural_periods(const Case& c, const hull::Ship& ship, double draft);
 
 }  // namespace seaway::sim

@@ -40,21 +40,6 @@ struct Periods {
   }
 };
 
-void add_natural_periods(const Case& c, const hull::Section& section, double draft, Periods& periods) {
-  const auto loops = hull::buoyant_loops(section, open_compartments(c.hull));
-  const hull::Hydrostatics at = hull::hydrostatics(loops, {draft, 0});
-  const double gm = hull::metacentric_height(loops, {draft, 0}, from_vec3<2>(c.body.cog));
-  const auto is_free = [&](Dof dof) {
-    return std::find(c.body.free.begin(), c.body.free.end(), dof) != c.body.free.end();
-  };
-  const double weight = c.body.mass * c.fluids.gravity;
-  // Rough added inertia: a quarter of the dry one in roll, the mass in heave.
-  if (is_free(Dof::roll) && gm > 0)
-    periods.add(2 * pi * c.body.gyradii.x() * std::sqrt(1.25 * c.body.mass / (weight * gm)));
-  const double stiffness = c.fluids.rho_water * c.fluids.gravity * at.waterplane_breadth;
-  if (is_free(Dof::heave) && stiffness > 0) periods.add(2 * pi * std::sqrt(2 * c.body.mass / stiffness));
-}
-
 }  // namespace
 
 template <int Dim>
@@ -82,6 +67,7 @@ Model<Dim> make_model(const Case& c) {
     m.prescribed.push_back({static_cast<motion::Dof>(p.dof), p.amplitude, p.period, p.ramp});
     periods.add(p.period);
   }
+  NaturalPeriods natural;
   if constexpr (Dim == 2) {
     if (c.hull.shape != Hull::Shape::none) {
       const auto section = build_section_hull(c);
@@ -89,18 +75,18 @@ Model<Dim> make_model(const Case& c) {
       const double draft = start_draft(c, section->section());
       m.rest_cog = from_vec3<Dim>(c.body.cog);
       m.rest_cog[Dim - 1] -= draft;
-      add_natural_periods(c, section->section(), draft, periods);
+      natural = natural_periods(c, section->section(), draft);
     }
   } else if (c.hull.shape != Hull::Shape::none) {
     const auto ship = build_surface_hull(c);
     m.hull = ship;
     const double draft = start_draft(c, ship->ship());
-    const NaturalPeriods natural = natural_periods(c, ship->ship(), draft);
-    periods.add(natural.heave);
-    periods.add(natural.roll);
+    natural = natural_periods(c, ship->ship(), draft);
     m.rest_cog = c.body.cog - Vec3(0, 0, draft);
   }
   if (m.hull) {
+    periods.add(natural.roll);
+    periods.add(natural.heave);
     m.body = motion::make_rigid_body<Dim>(c.body.mass, c.body.cog, c.body.gyradii);
     const Vec3& turn = c.body.angles;
     m.start_pose = motion::make_pose<Dim>(m.rest_cog + from_vec3<Dim>(c.body.offset), {turn.x(), turn.y(), turn.z()});
