@@ -149,6 +149,7 @@ void read_hull(const v1::Hull& m, int dim, sim::Hull& hull, Checker& check) {
       const v1::Opening& hole = from.openings(k);
       sim::Opening opening;
       opening.name = hole.name();
+      check.line(fmt::format("{}.openings[{}].name", path, k), hole.name(), 40);
       read_box(hole.x_m(), hole.y_m(), hole.z_m(), fmt::format("{}.openings[{}]", path, k), dim, opening.lower,
                opening.upper, check);
       to.openings.push_back(std::move(opening));

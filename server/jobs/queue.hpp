@@ -25,6 +25,8 @@ struct Submitted {
 /// Ten random letters and digits.
 std::string new_uid();
 bool is_uid(const std::string& text);
+/// Labels that a job may have. Throws InputError naming `field`.
+void check_labels(const std::string& field, const store::Labels& labels);
 
 /// `any`: from the last checkpoint if there is one.
 enum class RetryFrom { any, start, checkpoint };

@@ -206,7 +206,7 @@ Recovery recover(Database& db, int max_stalled, std::int64_t now) {
 
 bool erase(Database& db, const std::string& uid, std::int64_t now) {
   const auto job = find(db, uid);
-  if (!job) fail(ErrorCode::not_found, "job {} does not exist", uid);
+  if (!job) fail(ErrorCode::not_found, "job {} does not exist; list the jobs to find its name", uid);
   if (!is_terminal(job->state)) return false;
   add_change(db, uid, "DELETED", now);
   db.prepare("INSERT OR REPLACE INTO tombstones (request_id, uid, deleted_ns) VALUES (?, ?, ?)")

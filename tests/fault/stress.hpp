@@ -55,6 +55,7 @@ std::vector<Line> kill(const Settings& settings);
 std::vector<Line> bit_flips(const Settings& settings);
 std::vector<Line> simulation(const Settings& settings);
 std::vector<Line> disk_full(const Settings& settings);
+std::vector<Line> requests(const Settings& settings);
 
 /// CPU that a process has used [s].
 double cpu_seconds(pid_t pid);

@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
                                                                                  {"bit_flips", bit_flips}, {"disk_full", disk_full},
                                                                                  {"simulation", simulation}, {"submit", submit}, {"list", list},
                                                                                  {"boot", boot}, {"shutdown", shutdown}, {"dead_peer", dead_peer},
-                                                                                 {"overhead", overhead}, {"slow_clients", slow_clients}, {"catch_up", catch_up}, {"soak", soak}};
+                                                                                 {"overhead", overhead}, {"requests", requests}, {"slow_clients", slow_clients}, {"catch_up", catch_up}, {"soak", soak}};
   CLI::App app{"seaway-stress: measures the promises of the service", "seaway-stress"};
   Settings s;
   std::vector<std::string> names;
