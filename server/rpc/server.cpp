@@ -113,6 +113,8 @@ Server::Server(const ServerSettings& settings, jobs::Queue& queue, store::JobSto
 
 Server::~Server() { shutdown(); }
 
+Census Server::census() const { return parts_->registry.census(); }
+
 void Server::shutdown() {
   if (parts_ == nullptr || parts_->server == nullptr) return;
   parts_->server->GetHealthCheckService()->SetServingStatus(false);

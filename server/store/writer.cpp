@@ -19,7 +19,8 @@ Writer::Writer(const Options& o, Committed committed, Warn warn)
       own_thread_(o.own_thread),
       publish_too_early_(o.publish_too_early),
       committed_(std::move(committed)),
-      warn_(std::move(warn)) {
+      warn_(std::move(warn)),
+      timed_(o.timed) {
   if (own_thread_) thread_ = std::thread([this] { loop(); });
 }
 
@@ -96,6 +97,7 @@ void Writer::publish(std::deque<Task>& batch, const std::set<std::string>& touch
 
 bool Writer::commit(std::deque<Task>& batch) {
   bool published = false;
+  const auto began = std::chrono::steady_clock::now();
   std::set<std::string> touched;
   std::vector<std::exception_ptr> failures(batch.size());
   const auto keep_posted = [&](const std::exception_ptr& why) {
@@ -147,6 +149,7 @@ bool Writer::commit(std::deque<Task>& batch) {
     return batch.empty();
   }
   stuck_ = false;
+  if (timed_) timed_(std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   if (!published) publish(batch, touched, failures);
   batch.clear();
   if (db_.wal_pages() > passive_pages) db_.checkpoint(db_.wal_pages() > truncate_pages);
