@@ -117,6 +117,7 @@ void keep_house(const std::stop_token& stop, const Settings& settings, jobs::Que
       if (settings.keep_days > 0)
         if (const int n = queue.expire(now - static_cast<std::int64_t>(settings.keep_days * day)); n > 0)
           log.info("event=expired jobs={}", n);
+      if (const int n = queue.sweep_files(std::chrono::hours(1)); n > 0) log.info("event=swept files={}", n);
       store.prune(settings.keep_changes, now - tombstone_days * day);
     } catch (const std::exception& error) {
       log.warn("event=keep_house text=\"{}\"", error.what());

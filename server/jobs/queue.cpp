@@ -111,8 +111,11 @@ Submitted Queue::submit(const v1::CreateJobRequest& request) {
     refuse("INVALID_REQUEST", "request_id", request.request_id().empty() ? "is missing" : "is not a UUID",
            "make a new UUID for each submit and send the same one again after a lost answer");
   check_traits("", request.priority(), {request.labels().begin(), request.labels().end()}, request.note());
-  Checked checked = check_case(request.case_(), request.files(), workspace_, solver_);
-  out.report = std::move(checked.report);
+  check_files(request.files());
+  store::NewJob job;
+  job.spec = encode_spec(request.case_(), request.files());
+  job.digest = sha256_hex(job.spec);
+  out.report = report_of(request.case_(), request.files(), job.digest);
   if (request.validate_only()) return out;
   if (!out.report.ok()) {
     std::vector<sim::Diagnostic> problems;
@@ -126,12 +129,9 @@ Submitted Queue::submit(const v1::CreateJobRequest& request) {
   if (limits_.job_cpu_s > 0 && cpu_s > limits_.job_cpu_s)
     fail(ErrorCode::resource_exhausted, "the case needs about {:.0f} CPU seconds, allowed are {:.0f}; use larger cells or fewer periods",
          cpu_s, limits_.job_cpu_s);
-  store::NewJob job;
   job.uid = make_uid_();
   job.request_id = lower(request.request_id());
   job.title = request.case_().title();
-  job.spec = encode_spec(request.case_(), request.files());
-  job.digest = sha256_hex(job.spec);
   job.code_version = code_version();
   job.priority = request.priority();
   job.labels = {request.labels().begin(), request.labels().end()};
@@ -143,14 +143,22 @@ Submitted Queue::submit(const v1::CreateJobRequest& request) {
     known.report = std::move(out.report);
     return known;
   }
-  wake_();
+  if (!job.held) wake_();
   out.has_job = true;
   out.job = std::move(created.job);
   return out;
 }
 
-v1::CaseReport Queue::validate(const v1::Case& message, const Files& files) const {
-  return check_case(message, files, workspace_, solver_).report;
+v1::CaseReport Queue::report_of(const v1::Case& message, const Files& files, const std::string& digest) {
+  if (auto known = reports_.find(digest)) return std::move(*known);
+  v1::CaseReport report = check_case(message, files, workspace_, solver_);
+  reports_.keep(digest, report);
+  return report;
+}
+
+v1::CaseReport Queue::validate(const v1::Case& message, const Files& files) {
+  check_files(files);
+  return report_of(message, files, sha256_hex(encode_spec(message, files)));
 }
 
 store::Job Queue::cancel(const std::string& uid) {
@@ -248,6 +256,20 @@ int Queue::expire(std::int64_t ended_before_ns) {
     ++n;
   }
   return n;
+}
+
+int Queue::sweep_files(std::chrono::seconds unused_for) {
+  std::set<std::string> used;
+  store::ListQuery running;
+  running.states = {State::running, State::cancelling};
+  running.limit = 1000;  // there are at most as many as workers
+  for (const store::Job& row : store_.list(running)) {
+    const auto job = store_.find(row.uid);
+    if (!job) continue;
+    const v1::CreateJobRequest spec = decode_spec(job->spec);
+    for (const v1::CaseFile& file : spec.files()) used.insert(sha256_hex(file.content()));
+  }
+  return workspace_.sweep_files(unused_for, used);
 }
 
 void Queue::erase(const std::string& uid) {

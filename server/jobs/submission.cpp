@@ -110,11 +110,10 @@ sim::Case bind_case(const v1::Case& message, const Files& files, const Workspace
   return core;
 }
 
-Checked check_case(const v1::Case& message, const Files& files, const Workspace& workspace, const Solver& solver) {
-  Checked out;
-  out.core = bind_case(message, files, workspace);
-  out.report = convert::to_proto(solver.check(out.core));
-  return out;
+void check_files(const Files& files) { by_name(files); }
+
+v1::CaseReport check_case(const v1::Case& message, const Files& files, const Workspace& workspace, const Solver& solver) {
+  return convert::to_proto(solver.check(bind_case(message, files, workspace)));
 }
 
 std::vector<std::string> differing_fields(const std::string& spec_a, const std::string& spec_b) {
