@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/util/field_comparator.h>
 #include <google/protobuf/util/message_differencer.h>
 
 #include <algorithm>
@@ -119,6 +120,9 @@ v1::CaseReport check_case(const v1::Case& message, const Files& files, const Wor
 std::vector<std::string> differing_fields(const std::string& spec_a, const std::string& spec_b) {
   PathReporter reporter;
   google::protobuf::util::MessageDifferencer differencer;
+  google::protobuf::util::DefaultFieldComparator numbers;
+  numbers.set_treat_nan_as_equal(true);
+  differencer.set_field_comparator(&numbers);
   differencer.ReportDifferencesTo(&reporter);
   differencer.Compare(decode_spec(spec_a), decode_spec(spec_b));
   return reporter.take();

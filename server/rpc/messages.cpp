@@ -140,12 +140,9 @@ std::string make_page_token(std::int64_t before_id, const store::ListQuery& filt
 std::int64_t parse_page_token(const std::string& token, const store::ListQuery& filter) {
   if (token.empty()) return 0;
   std::int64_t id = 0;
-  unsigned key = 0;
-  const char* end = token.data() + token.size();
-  const auto first = std::from_chars(token.data(), end, id, 16);
-  const bool dash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '-';
-  const auto second = dash ? std::from_chars(first.ptr + 1, end, key, 16) : first;
-  if (!dash || second.ec != std::errc{} || second.ptr != end || id <= 0 || key != token_key(id, filter))
+  std::from_chars(token.data(), token.data() + token.size(), id, 16);
+  // There is one way to write each token.
+  if (id <= 0 || token != make_page_token(id, filter))
     refuse_field("page_token", "does not belong to this list", "use next_page_token of the page before, with the same filter");
   return id;
 }
