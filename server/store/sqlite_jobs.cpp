@@ -121,7 +121,8 @@ std::vector<Job> list(Database& db, const ListQuery& query) {
     sql += " AND EXISTS (SELECT 1 FROM labels WHERE job = jobs.id AND key = ? AND value = ?)";
   sql += " ORDER BY id DESC LIMIT ?";
   std::vector<Job> out;
-  Statement rows = db.prepare(sql);
+  // Thousands of filters are possible: kept, they would fill the memory.
+  Statement rows = db.prepare_once(sql);
   int index = 0;
   rows.bind_one(++index, query.before_id > 0 ? query.before_id : std::int64_t{1} << 62);
   for (const auto& [key, value] : query.labels) {
