@@ -150,8 +150,7 @@ sim::Case to_core(const v1::Case& m) {
   sim::Case c;
   check.finite(m);
   if (m.title().empty()) check.problem("title", "is missing", "say in a few words what the case is");
-  if (m.title().size() > 200)
-    check.problem("title", fmt::format("{} bytes", m.title().size()), "must be at most 200");
+  check.line("title", m.title(), 200);
   c.title = m.title();
   if (m.dimension() != 2 && m.dimension() != 3)
     check.problem("dimension", m.dimension() == 0 ? "is missing" : fmt::format("{} is not allowed", m.dimension()),

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "server/jobs/report_cache.hpp"
 #include "server/jobs/submission.hpp"
 #include "server/store/job_store.hpp"
 
@@ -25,6 +26,8 @@ struct Submitted {
 /// Ten random letters and digits.
 std::string new_uid();
 bool is_uid(const std::string& text);
+/// Labels that a job may have. Throws InputError naming `field`.
+void check_labels(const std::string& field, const store::Labels& labels);
 
 /// `any`: from the last checkpoint if there is one.
 enum class RetryFrom { any, start, checkpoint };
@@ -39,7 +42,7 @@ class Queue {
   /// Durable when it returns. Throws convert::InputError for a wrong case, a malformed request id, or a known
   /// one with another case (naming the fields); resource_exhausted when a limit is reached.
   Submitted submit(const v1::CreateJobRequest& request);
-  v1::CaseReport validate(const v1::Case& message, const Files& files) const;
+  v1::CaseReport validate(const v1::Case& message, const Files& files);
   /// Throws not_found, and failed_precondition if the job has ended otherwise.
   store::Job cancel(const std::string& uid);
   /// As cancel(), without a checkpoint if it runs.
@@ -55,8 +58,12 @@ class Queue {
   void erase(const std::string& uid);
   /// Erases jobs that ended before this time, at most a hundred; how many.
   int expire(std::int64_t ended_before_ns);
+  /// Removes files of cases that do not run and that nobody has checked for so long; how many.
+  int sweep_files(std::chrono::seconds unused_for);
 
  private:
+  /// The report of a case, whose digest is known.
+  v1::CaseReport report_of(const v1::Case& message, const Files& files, const std::string& digest);
   const QueueLimits limits_;
   const Solver solver_;
   const Workspace& workspace_;
@@ -65,6 +72,7 @@ class Queue {
   store::Job shift(const std::string& uid, store::State from, store::State to, const std::string& what);
   const std::function<void(const std::string&)> stop_, kill_;
   const std::function<std::string()> make_uid_;
+  ReportCache reports_{256};
 };
 
 }  // namespace seaway::jobs

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/util/field_comparator.h>
 #include <google/protobuf/util/message_differencer.h>
 
 #include <algorithm>
@@ -110,16 +111,18 @@ sim::Case bind_case(const v1::Case& message, const Files& files, const Workspace
   return core;
 }
 
-Checked check_case(const v1::Case& message, const Files& files, const Workspace& workspace, const Solver& solver) {
-  Checked out;
-  out.core = bind_case(message, files, workspace);
-  out.report = convert::to_proto(solver.check(out.core));
-  return out;
+void check_files(const Files& files) { by_name(files); }
+
+v1::CaseReport check_case(const v1::Case& message, const Files& files, const Workspace& workspace, const Solver& solver) {
+  return convert::to_proto(solver.check(bind_case(message, files, workspace)));
 }
 
 std::vector<std::string> differing_fields(const std::string& spec_a, const std::string& spec_b) {
   PathReporter reporter;
   google::protobuf::util::MessageDifferencer differencer;
+  google::protobuf::util::DefaultFieldComparator numbers;
+  numbers.set_treat_nan_as_equal(true);
+  differencer.set_field_comparator(&numbers);
   differencer.ReportDifferencesTo(&reporter);
   differencer.Compare(decode_spec(spec_a), decode_spec(spec_b));
   return reporter.take();

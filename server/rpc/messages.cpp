@@ -17,10 +17,12 @@ void put_time(std::int64_t ns, google::protobuf::Timestamp& out) {
   out.set_nanos(static_cast<std::int32_t>(ns % 1'000'000'000));
 }
 
-/// What tells one filter from another.
-unsigned filter_key(const store::ListQuery& filter) {
-  unsigned key = 0;
-  for (const store::State s : filter.states) key |= 1u << static_cast<unsigned>(s);
+/// What a place belongs to: it tells one filter from another, and a place from one that somebody has thought up.
+unsigned token_key(std::int64_t before_id, const store::ListQuery& filter) {
+  unsigned key = static_cast<unsigned>(before_id) * 2654435761u;  // Knuth's multiplicative hash
+  unsigned states = 0;
+  for (const store::State s : filter.states) states |= 1u << static_cast<unsigned>(s);
+  key = key * 16777619u ^ states;
   for (const auto& [name, value] : filter.labels)
     key = key * 16777619u ^ static_cast<unsigned>(std::hash<std::string>{}(name + '\n' + value));
   return key;
@@ -132,18 +134,15 @@ std::string parse_job_name(const std::string& name, const std::string& field) {
 }
 
 std::string make_page_token(std::int64_t before_id, const store::ListQuery& filter) {
-  return fmt::format("{:x}-{:x}", before_id, filter_key(filter));
+  return fmt::format("{:x}-{:x}", before_id, token_key(before_id, filter));
 }
 
 std::int64_t parse_page_token(const std::string& token, const store::ListQuery& filter) {
   if (token.empty()) return 0;
   std::int64_t id = 0;
-  unsigned key = 0;
-  const char* end = token.data() + token.size();
-  const auto first = std::from_chars(token.data(), end, id, 16);
-  const bool dash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '-';
-  const auto second = dash ? std::from_chars(first.ptr + 1, end, key, 16) : first;
-  if (!dash || second.ec != std::errc{} || second.ptr != end || id <= 0 || key != filter_key(filter))
+  std::from_chars(token.data(), token.data() + token.size(), id, 16);
+  // There is one way to write each token.
+  if (id <= 0 || token != make_page_token(id, filter))
     refuse_field("page_token", "does not belong to this list", "use next_page_token of the page before, with the same filter");
   return id;
 }

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "server/rpc/malformed.hpp"
 #include "server/rpc/services.hpp"
 
 namespace seaway::rpc {
@@ -90,6 +91,9 @@ Server::Server(const ServerSettings& settings, jobs::Queue& queue, store::JobSto
   grpc::ResourceQuota quota("seaway");
   quota.Resize(std::size_t{512} << 20);
   builder.SetResourceQuota(quota);
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
+  interceptors.push_back(make_malformed_answer());
+  builder.experimental().SetInterceptorCreators(std::move(interceptors));
   builder.RegisterService(&parts_->jobs);
   builder.RegisterService(&parts_->telemetry);
   builder.RegisterService(&parts_->stages);
@@ -108,6 +112,8 @@ Server::Server(const ServerSettings& settings, jobs::Queue& queue, store::JobSto
 }
 
 Server::~Server() { shutdown(); }
+
+Census Server::census() const { return parts_->registry.census(); }
 
 void Server::shutdown() {
   if (parts_ == nullptr || parts_->server == nullptr) return;

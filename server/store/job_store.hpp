@@ -30,7 +30,7 @@ struct ListQuery {
 
 struct Created {
   Job job;
-  bool existed = false;  ///< the request id was known; `job` is the old one, whatever its digest
+  bool existed = false;  ///< the request id was known; `job` is the old one, whatever its digest, with its spec
 };
 
 struct Recovery {
