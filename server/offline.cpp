@@ -23,6 +23,7 @@
 #include "server/file_observer.hpp"
 #include "server/hull_command.hpp"
 #include "server/jobs/submission.hpp"
+#include "server/report_commands.hpp"
 
 namespace seaway::server {
 namespace {
@@ -202,6 +203,32 @@ int run(Options o, const jobs::Solver& solver) {
   return 1;
 }
 
+/// An option that stays absent in the message unless it is given.
+template <class Message, class Value>
+void add_field(CLI::App* sub, const std::string& name, Message& message, void (Message::*set)(Value), const std::string& text) {
+  sub->add_option_function<Value>(name, [&message, set](const Value& value) { (message.*set)(value); }, text);
+}
+
+CLI::App* add_decay(CLI::App& app, ReportOptions& o) {
+  CLI::App* sub = app.add_subcommand("decay", "periods, peaks and damping of free decays");
+  sub->add_option("FILES", o.files, "history.csv or run folders")->required();
+  sub->add_option_function<std::string>("--channel", [&o](const std::string& name) { o.decay.set_channel(name); }, "default: roll");
+  add_field<v1::DecayOptions, double>(sub, "--from", o.decay, &v1::DecayOptions::set_from_s, "begin at this time [s]; default: the release");
+  add_field<v1::DecayOptions, double>(sub, "--until", o.decay, &v1::DecayOptions::set_until_s, "end at this time [s]");
+  add_field<v1::DecayOptions, double>(sub, "--smallest-peak", o.decay, &v1::DecayOptions::set_smallest_peak, "part of the first peak; default 0.02");
+  sub->add_flag("--json", o.json, "one JSON object a file");
+  return sub;
+}
+
+CLI::App* add_rao(CLI::App& app, ReportOptions& o) {
+  CLI::App* sub = app.add_subcommand("rao", "response amplitudes of runs in regular waves");
+  sub->add_option("FILES", o.files, "run folders, each with its case.yaml")->required();
+  add_field<v1::RaoOptions, int>(sub, "--periods", o.rao, &v1::RaoOptions::set_period_count, "last whole periods to fit; default 5");
+  sub->add_option("--out", o.folder, "folder for rao.png and its data");
+  sub->add_flag("--json", o.json, "print one JSON object instead of text");
+  return sub;
+}
+
 }  // namespace
 
 void block_stop_signals() {
@@ -237,16 +264,21 @@ int run_offline(int argc, char** argv, const jobs::Solver& solver) {
   of_hull->add_option("--amidships", hull_options.amidships, "x of amidships in the file's unit");
   of_hull->add_option("--draft", hull_options.draft, "of a file [m]; a case has its own")->check(CLI::NonNegativeNumber);
   of_hull->add_option("--kg", hull_options.kg, "of a file, with --draft: height of the centre of gravity [m]");
+  ReportOptions report_options;
+  CLI::App* of_decay = add_decay(app, report_options);
+  CLI::App* of_rao = add_rao(app, report_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  if (o.case_file.empty()) {
+  if (o.case_file.empty() && !of_decay->parsed() && !of_rao->parsed()) {
     std::fprintf(stderr, "seaway-run: which case? Try --help\n");
     return 2;
   }
   try {
+    if (of_decay->parsed()) return print_decay(report_options);
+    if (of_rao->parsed()) return print_rao(report_options);
     if (of_hull->parsed()) return hull(o, hull_options);
     return checking->parsed() ? check(o, solver) : run(o, solver);
   } catch (const yaml::InputError& error) {

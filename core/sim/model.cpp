@@ -5,30 +5,12 @@
 #include "core/base/error.hpp"
 #include "core/sim/build_hull.hpp"
 #include "core/sim/build_ship.hpp"
+#include "core/sim/build_wave.hpp"
 #include "core/sim/mesh_regions.hpp"
 #include "core/sim/simulation.hpp"
 
 namespace seaway::sim {
 namespace {
-
-std::shared_ptr<const waves::WaveField> wave_of(const Case& c) {
-  if (c.wave.kind == Wave::Kind::none) return nullptr;
-  waves::RegularWaveSpec spec;
-  spec.theory = c.wave.theory == Wave::Theory::airy ? waves::RegularWaveSpec::Theory::airy
-                                                    : waves::RegularWaveSpec::Theory::stream_function;
-  spec.mean_flow = c.wave.mean_flow == Wave::MeanFlow::zero_eulerian
-                       ? waves::RegularWaveSpec::MeanFlow::zero_eulerian
-                       : waves::RegularWaveSpec::MeanFlow::zero_transport;
-  spec.height = c.wave.height;
-  spec.period = c.wave.period;
-  spec.length = c.wave.length;
-  spec.depth = -c.tank.lower.z();
-  spec.heading = c.wave.heading;
-  spec.phase = c.wave.phase;
-  spec.gravity = c.fluids.gravity;
-  spec.rho = c.fluids.rho_water;
-  return waves::make_wave(spec);
-}
 
 /// Shortest and longest of the wave's and the rough natural periods; 0 where there is none.
 struct Periods {
@@ -60,7 +42,7 @@ Model<Dim> make_model(const Case& c) {
   m.fluids.gravity = c.fluids.gravity;
   m.fluids.viscous = c.fluids.viscous;
   if (c.tank.open_top) m.boundaries.kind[Dim - 1][1] = field::BoundaryKind::open;
-  m.wave = wave_of(c);
+  m.wave = build_wave(c);
   Periods periods;
   if (m.wave) periods.add(m.wave->period());
   for (const auto& p : c.body.prescribed) {

@@ -54,10 +54,18 @@ void read_regular(const v1::RegularWave& m, int dim, sim::Wave& wave, Checker& c
   const std::string path = "wave.regular.";
   wave.kind = sim::Wave::Kind::regular;
   wave.height = check.number(path + "height_m", m.height_m(), positive);
-  if (m.has_period_s() == m.has_length_m())
-    check.problem("wave.regular", m.has_period_s() ? "both period_s and length_m are given" : "has no period",
-                  "give exactly one of period_s and length_m");
+  std::string given;
+  const auto count = [&](bool has, const char* name) {
+    if (has) given += (given.empty() ? "" : " and ") + std::string(name);
+  };
+  count(m.has_period_s(), "period_s");
+  count(m.has_frequency_hz(), "frequency_hz");
+  count(m.has_length_m(), "length_m");
+  if (m.has_period_s() + m.has_frequency_hz() + m.has_length_m() != 1)
+    check.problem("wave.regular", given.empty() ? "has no period" : given + " are given",
+                  "give exactly one of period_s, frequency_hz and length_m");
   if (m.has_period_s()) wave.period = check.number(path + "period_s", m.period_s(), positive);
+  if (m.has_frequency_hz()) wave.period = 1 / check.number(path + "frequency_hz", m.frequency_hz(), {1e-6, 1e6});
   if (m.has_length_m()) wave.length = check.number(path + "length_m", m.length_m(), positive);
   if (m.theory() == v1::RegularWave::THEORY_AIRY) wave.theory = sim::Wave::Theory::airy;
   if (m.mean_flow() == v1::RegularWave::MEAN_FLOW_ZERO_EULERIAN)

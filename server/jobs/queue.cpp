@@ -2,61 +2,19 @@
 #include "server/jobs/queue.hpp"
 
 #include <algorithm>
-#include <array>
 #include <random>
 
 #include "core/base/error.hpp"
 #include "core/base/version.hpp"
 #include "server/convert/input_error.hpp"
 #include "server/convert/result.hpp"
+#include "server/jobs/requests.hpp"
 
 namespace seaway::jobs {
 namespace {
 
 using store::Reason;
 using store::State;
-
-[[noreturn]] void refuse(const std::string& reason, const std::string& field, const std::string& message,
-                         const std::string& hint) {
-  throw convert::InputError(reason, {{sim::Diagnostic::Severity::error, field, message, hint}});
-}
-
-bool is_uuid(const std::string& text) {
-  if (text.size() != 36) return false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool dash = i == 8 || i == 13 || i == 18 || i == 23;
-    const char c = text[i];
-    const bool hex = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
-    if (dash ? c != '-' : !hex) return false;
-  }
-  return true;
-}
-
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
-bool is_text(const std::string& text) {
-  return std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
-}
-
-bool is_label_key(const std::string& key) {
-  return !key.empty() && key.size() <= 63 && std::all_of(key.begin(), key.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
-  });
-}
-
-/// What a user may hang on a job. `path` goes before the names of the fields.
-void check_traits(const std::string& path, int priority, const store::Labels& labels, const std::string& note) {
-  if (priority < -100 || priority > 100) refuse("INVALID_REQUEST", path + "priority", std::to_string(priority) + " is not allowed", "must be -100 to 100");
-  check_labels(path + "labels", labels);
-  if (note.size() > 4000) refuse("INVALID_REQUEST", path + "note", std::to_string(note.size()) + " bytes", "at most 4000");
-  std::string lines = note;
-  std::erase_if(lines, [](char c) { return c == '\n' || c == '\t'; });
-  if (!is_text(lines)) refuse("INVALID_REQUEST", path + "note", "has control characters", "write plain text");
-}
 
 /// The known job if it was made from the same case.
 Submitted same_job(store::Job job, const std::string& spec, const std::string& digest) {
@@ -75,14 +33,6 @@ Submitted same_job(store::Job job, const std::string& spec, const std::string& d
 }
 
 }  // namespace
-
-void check_labels(const std::string& field, const store::Labels& labels) {
-  if (labels.size() > 64) refuse("INVALID_REQUEST", field, std::to_string(labels.size()) + " labels", "at most 64");
-  for (const auto& [key, value] : labels) {
-    if (!is_label_key(key)) refuse("INVALID_REQUEST", field, "a key is malformed", "1 to 63 of a-z, 0-9, dot, _ and -");
-    if (value.size() > 255 || !is_text(value)) refuse("INVALID_REQUEST", field + "." + key, "is too long or no text", "at most 255 bytes of text in one line");
-  }
-}
 
 std::string new_uid() {
   static constexpr std::string_view letters = "abcdefghijkmnpqrstuvwxyz23456789";  // 32, none alike
@@ -117,18 +67,7 @@ Submitted Queue::submit(const v1::CreateJobRequest& request) {
   job.digest = sha256_hex(job.spec);
   out.report = report_of(request.case_(), request.files(), job.digest);
   if (request.validate_only()) return out;
-  if (!out.report.ok()) {
-    std::vector<sim::Diagnostic> problems;
-    for (const v1::Diagnostic& d : out.report.diagnostics())
-      if (d.severity() == v1::Diagnostic::SEVERITY_ERROR)
-        problems.push_back({sim::Diagnostic::Severity::error, d.field(), d.message(), d.hint()});
-    throw convert::InputError("INVALID_CASE", std::move(problems));
-  }
-  double cpu_s = 0;
-  for (const v1::StageEstimate& stage : out.report.stages()) cpu_s += stage.cpu_s();
-  if (limits_.job_cpu_s > 0 && cpu_s > limits_.job_cpu_s)
-    fail(ErrorCode::resource_exhausted, "the case needs about {:.0f} CPU seconds, allowed are {:.0f}; use larger cells or fewer periods",
-         cpu_s, limits_.job_cpu_s);
+  require_runnable(out.report);
   job.uid = make_uid_();
   job.request_id = lower(request.request_id());
   job.title = request.case_().title();
@@ -147,6 +86,21 @@ Submitted Queue::submit(const v1::CreateJobRequest& request) {
   out.has_job = true;
   out.job = std::move(created.job);
   return out;
+}
+
+void Queue::require_runnable(const v1::CaseReport& report) const {
+  if (!report.ok()) {
+    std::vector<sim::Diagnostic> problems;
+    for (const v1::Diagnostic& d : report.diagnostics())
+      if (d.severity() == v1::Diagnostic::SEVERITY_ERROR)
+        problems.push_back({sim::Diagnostic::Severity::error, d.field(), d.message(), d.hint()});
+    throw convert::InputError("INVALID_CASE", std::move(problems));
+  }
+  double cpu_s = 0;
+  for (const v1::StageEstimate& stage : report.stages()) cpu_s += stage.cpu_s();
+  if (limits_.job_cpu_s > 0 && cpu_s > limits_.job_cpu_s)
+    fail(ErrorCode::resource_exhausted, "the case needs about {:.0f} CPU seconds, allowed are {:.0f}; use larger cells or fewer periods",
+         cpu_s, limits_.job_cpu_s);
 }
 
 v1::CaseReport Queue::report_of(const v1::Case& message, const Files& files, const std::string& digest) {

@@ -23,11 +23,15 @@ struct Submitted {
   v1::CaseReport report;
 };
 
+struct SubmittedSweep {
+  bool has_sweep = false;  ///< false after validate_only
+  store::Sweep sweep;
+  std::vector<v1::CaseReport> reports;  ///< one for each job; empty for a sweep that was known
+};
+
 /// Ten random letters and digits.
 std::string new_uid();
 bool is_uid(const std::string& text);
-/// Labels that a job may have. Throws InputError naming `field`.
-void check_labels(const std::string& field, const store::Labels& labels);
 
 /// `any`: from the last checkpoint if there is one.
 enum class RetryFrom { any, start, checkpoint };
@@ -43,6 +47,10 @@ class Queue {
   /// one with another case (naming the fields); resource_exhausted when a limit is reached.
   Submitted submit(const v1::CreateJobRequest& request);
   v1::CaseReport validate(const v1::Case& message, const Files& files);
+  /// All jobs of a sweep or none (sweeps.cpp). Throws as submit().
+  SubmittedSweep submit_sweep(const v1::CreateSweepRequest& request);
+  /// Cancels the jobs of a sweep that have not ended. Throws not_found.
+  store::Sweep cancel_sweep(const std::string& uid);
   /// Throws not_found, and failed_precondition if the job has ended otherwise.
   store::Job cancel(const std::string& uid);
   /// As cancel(), without a checkpoint if it runs.
@@ -69,6 +77,8 @@ class Queue {
   const Workspace& workspace_;
   store::JobStore& store_;
   const std::function<void()> wake_;
+  /// Throws for a case that its check refuses, or that costs too much.
+  void require_runnable(const v1::CaseReport& report) const;
   store::Job shift(const std::string& uid, store::State from, store::State to, const std::string& what);
   const std::function<void(const std::string&)> stop_, kill_;
   const std::function<std::string()> make_uid_;

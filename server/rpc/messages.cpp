@@ -61,6 +61,37 @@ v1::Job to_proto(const store::Job& job) {
   return m;
 }
 
+v1::Sweep to_proto(const store::Sweep& sweep, bool with_points) {
+  v1::Sweep m;
+  m.set_name("sweeps/" + sweep.uid);
+  m.set_uid(sweep.uid);
+  m.set_title(sweep.title);
+  put_time(sweep.created_ns, *m.mutable_create_time());
+  m.set_spec_digest(sweep.digest);
+  m.set_code_version(sweep.code_version);
+  m.set_job_count(static_cast<int>(sweep.members.size()));
+  for (int state = v1::Job::STATE_QUEUED; state <= v1::Job::STATE_CANCELLED; ++state) m.add_state_counts(0);
+  m.set_ended(true);
+  for (const store::SweepMember& member : sweep.members) {
+    if (member.exists) {
+      const int at = static_cast<int>(member.state) - v1::Job::STATE_QUEUED;
+      m.set_state_counts(at, m.state_counts(at) + 1);
+      if (!store::is_terminal(member.state)) m.set_ended(false);
+    }
+    if (!with_points) continue;
+    v1::SweepPoint& point = *m.add_points();
+    point.set_job("jobs/" + member.uid);
+    point.set_case_name(member.point.case_name);
+    point.set_period_s(member.point.period_s);
+    point.set_height_m(member.point.height_m);
+    point.set_heading_deg(member.point.heading_deg);
+    if (!member.exists) continue;
+    point.set_state(static_cast<v1::Job::State>(member.state));
+    point.set_fraction(member.fraction);
+  }
+  return m;
+}
+
 v1::JobEvent to_proto(const store::Event& event) {
   v1::JobEvent m;
   m.set_revision(event.revision);
@@ -125,6 +156,12 @@ void to_proto(const std::vector<store::EnvelopePoint>& points, const std::vector
 
 void refuse_field(const std::string& field, const std::string& message, const std::string& hint) {
   throw convert::InputError("INVALID_REQUEST", {{sim::Diagnostic::Severity::error, field, message, hint}});
+}
+
+std::string parse_sweep_name(const std::string& name, const std::string& field) {
+  if (!name.starts_with("sweeps/") || !jobs::is_uid(name.substr(7)))
+    refuse_field(field, name.empty() ? "is missing" : "is not the name of a sweep", "write sweeps/ and the uid");
+  return name.substr(7);
 }
 
 std::string parse_job_name(const std::string& name, const std::string& field) {

@@ -5,56 +5,22 @@
 
 #include "core/base/error.hpp"
 #include "core/base/version.hpp"
+#include "server/jobs/requests.hpp"
 #include "server/jobs/submission.hpp"
+#include "server/rpc/answer.hpp"
 #include "server/rpc/download.hpp"
 #include "server/rpc/messages.hpp"
-#include "server/rpc/unary.hpp"
 #include "server/rpc/watch.hpp"
 #include "server/rpc/watch_jobs.hpp"
 
 namespace seaway::rpc {
 namespace {
 
-/// Who may call what, and the name of it for the audit trail.
-struct Method {
-  Role role;
-  const char* name;
-};
-
-/// What changes something is recorded, with what came of it.
-template <class Work>
-grpc::ServerUnaryReactor* answer(const Backend& b, grpc::CallbackServerContext* context, Method method,
-                                 const std::string& target, Work work) {
-  return run_unary(context, b.registry, b.work, [b, context, method, target, work = std::move(work)]() mutable {
-    const std::string who = b.access.check(*context, method.role, method.name, target);
-    try {
-      work();
-    } catch (const std::exception& error) {
-      if (method.role != Role::viewer) b.access.record(*context, who, method.name, target, error.what());
-      throw;
-    }
-    if (method.role != Role::viewer) b.access.record(*context, who, method.name, target, "OK");
-  });
-}
-
-store::Job find_job(const Backend& b, const std::string& name, const std::string& field) {
-  const std::string uid = parse_job_name(name, field);
-  auto job = b.store.find(uid);
-  if (!job) fail(ErrorCode::not_found, "job {} does not exist; list the jobs to find its name", uid);
-  return std::move(*job);
-}
-
 void fill_header(const store::Job& job, const std::vector<store::Channel>& channels, v1::StreamHeader& header) {
   header.set_first_available(1);
   header.set_latest(job.last_sequence);
   header.set_attempt(job.attempt);
   *header.mutable_channels() = to_proto(channels);
-}
-
-int page_size(int wanted, int normal, int largest) {
-  if (wanted < 0 || wanted > largest)
-    refuse_field("page_size", fmt::format("{} is not allowed", wanted), fmt::format("must be 0 to {}", largest));
-  return wanted == 0 ? normal : wanted;
 }
 
 /// Admits a stream or answers at once that there are too many, or that it is not allowed.

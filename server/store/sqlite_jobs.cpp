@@ -219,6 +219,7 @@ bool erase(Database& db, const std::string& uid, std::int64_t now) {
       .bind(job->request_id, uid, now)
       .run();
   db.prepare("DELETE FROM jobs WHERE id = ?").bind(job->id).run();
+  drop_empty_sweep(db, uid);
   return true;
 }
 

@@ -159,6 +159,22 @@ class SqliteStore final : public JobStore {
     return erased;
   }
 
+  CreatedSweep create_sweep(const NewSweep& sweep, int limit) override {
+    CreatedSweep out;
+    change([&](Database& db, std::set<std::string>& touched) {
+      out = rows::create_sweep(db, sweep, limit, now_ns_());
+      if (!out.existed)
+        for (const NewJob& job : sweep.jobs) touched.insert(job.uid);
+    });
+    return out;
+  }
+  std::optional<Sweep> find_sweep(const std::string& uid) const override {
+    return readers_.use([&](Database& db) { return rows::find_sweep(db, uid); });
+  }
+  std::vector<Sweep> list_sweeps(std::int64_t before_id, int limit) const override {
+    return readers_.use([&](Database& db) { return rows::list_sweeps(db, before_id, limit); });
+  }
+
   void set_channels(const std::string& uid, std::vector<Channel> channels) override {
     post(uid, [channels = std::move(channels)](Database& db, const std::string& job, std::int64_t) {
       rows::set_channels(db, job, channels);

@@ -20,6 +20,7 @@ using Folders = std::set<std::string>;
 /// Folders of the core from the bottom up, and which others each may use. All may use base.
 const std::map<std::string, Folders> core_rules = {
     {"core/base", {}},
+    {"core/analysis", {}},
     {"core/mesh", {}},
     {"core/waves", {}},
     {"core/hull", {}},
@@ -45,12 +46,15 @@ const std::map<std::string, Folders> outer_rules = {
     {"server/store", {"proto", "core/base"}},
     {"server/convert", {"proto", "core"}},
     {"server/metrics", {"core/base"}},
+    {"server/reports", {"proto", "core", "server/convert"}},
     {"server/jobs", {"proto", "core", "server/store", "server/convert", "server/metrics"}},
-    {"server/rpc", {"proto", "core", "server/store", "server/convert", "server/jobs", "server/metrics"}},
+    {"server/rpc",
+     {"proto", "core", "server/store", "server/convert", "server/jobs", "server/metrics",
+      "server/reports"}},
     {"server/http", {"core/base"}},
     {"server",
-     {"proto", "core", "server/store", "server/convert", "server/jobs", "server/rpc",
-      "server/http", "server/metrics"}},
+     {"proto", "core", "server/store", "server/convert", "server/jobs", "server/reports",
+      "server/rpc", "server/http", "server/metrics"}},
     {"client", {"proto"}},
 };
 

@@ -83,6 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"mesh.base_cell_m", [](v1::Case& m) { m.mutable_mesh()->set_base_cell_m(nan_value); }},
         Mistake{"wave", [](v1::Case& m) { m.mutable_wave()->clear_regular(); }},
         Mistake{"wave.regular", [](v1::Case& m) { m.mutable_wave()->mutable_regular()->set_length_m(3); }},
+        Mistake{"wave.regular", [](v1::Case& m) { m.mutable_wave()->mutable_regular()->set_frequency_hz(0.7); }},
         Mistake{"wave.regular.height_m", [](v1::Case& m) { m.mutable_wave()->mutable_regular()->set_height_m(-1); }},
         Mistake{"wave.regular.heading_deg", [](v1::Case& m) { m.mutable_wave()->mutable_regular()->set_heading_deg(180); }},
         Mistake{"hull", [](v1::Case& m) { m.mutable_hull()->clear_box(); }},
@@ -121,6 +122,13 @@ INSTANTIATE_TEST_SUITE_P(
                 [](v1::Case& m) { m.mutable_cascade()->mutable_stages(2)->mutable_mapping()->set_k(120); }},
         Mistake{"outputs.gauges[1].name",
                 [](v1::Case& m) { m.mutable_outputs()->add_gauges()->set_name("bow"); }}));
+
+TEST(ConvertCase, AFrequencyIsAPeriod) {
+  v1::Case m = small();
+  m.mutable_wave()->mutable_regular()->clear_period_s();
+  m.mutable_wave()->mutable_regular()->set_frequency_hz(0.8);
+  EXPECT_DOUBLE_EQ(to_core(m).wave.period, 1.25);
+}
 
 TEST(ConvertCase, RefusesOpenAndFlatPolygons) {
   v1::Case m = small();
