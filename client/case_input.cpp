@@ -7,24 +7,32 @@
 
 namespace seaway::client {
 
+namespace {
+
+/// Reads what a field names, beside the case file. Once, if several fields name it.
+void add_file(const std::string& path, const std::string& field, const std::string& name, CaseInput& in) {
+  if (name.empty()) return;
+  for (const v1::CaseFile& known : in.files)
+    if (known.name() == name) return;
+  const auto place = std::filesystem::path(path).parent_path() / name;
+  std::ifstream stream(place, std::ios::binary);
+  if (!stream)
+    throw yaml::InputError(path, {{in.lines.find(field), field, place.string() + " cannot be opened", "the name is relative to the case file"}});
+  v1::CaseFile& file = *in.files.Add();
+  file.set_name(name);
+  file.mutable_content()->assign(std::istreambuf_iterator<char>(stream), {});
+}
+
+}  // namespace
+
 CaseInput read_case(const std::string& path) {
   CaseInput in;
   in.lines = yaml::read_file(path, in.message);
   const v1::Hull& hull = in.message.hull();
-  const bool whole = hull.has_offsets_hull();
-  const std::string& table = hull.has_stl() ? hull.stl().file()
-                             : whole        ? hull.offsets_hull().file()
-                                            : hull.offsets_section().file();
-  if (table.empty()) return in;
-  const auto place = std::filesystem::path(path).parent_path() / table;
-  std::ifstream stream(place, std::ios::binary);
-  if (!stream) {
-    const std::string field = hull.has_stl() ? "hull.stl.file" : whole ? "hull.offsets_hull.file" : "hull.offsets_section.file";
-    throw yaml::InputError(path, {{in.lines.find(field), field, place.string() + " cannot be opened", "the name is relative to the case file"}});
-  }
-  v1::CaseFile& file = *in.files.Add();
-  file.set_name(table);
-  file.mutable_content()->assign(std::istreambuf_iterator<char>(stream), {});
+  add_file(path, "hull.stl.file", hull.stl().file(), in);
+  add_file(path, "hull.offsets_hull.file", hull.offsets_hull().file(), in);
+  add_file(path, "hull.offsets_section.file", hull.offsets_section().file(), in);
+  add_file(path, "wave.time_series.file", in.message.wave().time_series().file(), in);
   return in;
 }
 

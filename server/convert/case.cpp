@@ -50,35 +50,6 @@ void read_tank(const v1::Case& message, int dim, sim::Tank& tank, Checker& check
   if (m.has_open_top()) tank.open_top = m.open_top();
 }
 
-void read_regular(const v1::RegularWave& m, int dim, sim::Wave& wave, Checker& check) {
-  const std::string path = "wave.regular.";
-  wave.kind = sim::Wave::Kind::regular;
-  wave.height = check.number(path + "height_m", m.height_m(), positive);
-  std::string given;
-  const auto count = [&](bool has, const char* name) {
-    if (has) given += (given.empty() ? "" : " and ") + std::string(name);
-  };
-  count(m.has_period_s(), "period_s");
-  count(m.has_frequency_hz(), "frequency_hz");
-  count(m.has_length_m(), "length_m");
-  if (m.has_period_s() + m.has_frequency_hz() + m.has_length_m() != 1)
-    check.problem("wave.regular", given.empty() ? "has no period" : given + " are given",
-                  "give exactly one of period_s, frequency_hz and length_m");
-  if (m.has_period_s()) wave.period = check.number(path + "period_s", m.period_s(), positive);
-  if (m.has_frequency_hz()) wave.period = 1 / check.number(path + "frequency_hz", m.frequency_hz(), {1e-6, 1e6});
-  if (m.has_length_m()) wave.length = check.number(path + "length_m", m.length_m(), positive);
-  if (m.theory() == v1::RegularWave::THEORY_AIRY) wave.theory = sim::Wave::Theory::airy;
-  if (m.mean_flow() == v1::RegularWave::MEAN_FLOW_ZERO_EULERIAN)
-    wave.mean_flow = sim::Wave::MeanFlow::zero_eulerian;
-  if (m.has_heading_deg()) {
-    wave.heading = check.number(path + "heading_deg", m.heading_deg(), {-360, 360}) * degree;
-    if (dim == 2 && std::abs(m.heading_deg()) != 90)
-      check.problem(path + "heading_deg", fmt::format("{} is not possible in a section", m.heading_deg()),
-                    "write 90 (towards port) or -90 (towards starboard)");
-  }
-  if (m.has_phase_deg()) wave.phase = check.number(path + "phase_deg", m.phase_deg(), {-360, 360}) * degree;
-}
-
 void read_zones(const v1::Zones& m, sim::Zones& zones, Checker& check) {
   if (m.has_generation_length_m())
     zones.generation_length = check.number("zones.generation_length_m", m.generation_length_m(), not_negative);
@@ -174,11 +145,7 @@ sim::Case to_core(const v1::Case& m) {
     if (c.dim == 2) check.problem("mesh.stretch_x", "x does not exist in 2-D", "remove it");
     c.stretch_x = check.number("mesh.stretch_x", m.mesh().stretch_x(), positive);
   }
-  if (m.has_wave()) {
-    if (m.wave().has_regular()) read_regular(m.wave().regular(), c.dim, c.wave, check);
-    if (m.wave().kind_case() == v1::Wave::KIND_NOT_SET)
-      check.problem("wave", "says nothing", "write calm: {} or regular: with height_m and period_s");
-  }
+  if (m.has_wave()) read_wave(m.wave(), c.dim, c.wave, check);
   read_zones(m.zones(), c.zones, check);
   if (m.has_hull()) read_hull(m.hull(), c.dim, c.hull, check);
   read_body(m, c.body, check);

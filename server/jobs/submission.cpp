@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "server/convert/case.hpp"
 #include "server/convert/input_error.hpp"
@@ -37,6 +38,23 @@ std::map<std::string, const v1::CaseFile*> by_name(const Files& files) {
       wrong(fmt::format("files[{}].name", i), "is given twice", "send each file once");
   }
   if (!problems.empty()) throw convert::InputError("INVALID_FILES", std::move(problems));
+  return out;
+}
+
+/// A field of the case that names a file.
+struct NamedFile {
+  const char* field;
+  std::string* name;
+};
+
+std::vector<NamedFile> files_of(sim::Case& c) {
+  std::vector<NamedFile> out;
+  if (!c.hull.offsets_file.empty())
+    out.push_back({c.dim == 2                                    ? "hull.offsets_section.file"
+                   : c.hull.shape == sim::Hull::Shape::stl ? "hull.stl.file"
+                                                                  : "hull.offsets_hull.file",
+                   &c.hull.offsets_file});
+  if (!c.wave.file.empty()) out.push_back({"wave.time_series.file", &c.wave.file});
   return out;
 }
 
@@ -93,17 +111,17 @@ v1::CreateJobRequest decode_spec(const std::string& bytes) {
 sim::Case bind_case(const v1::Case& message, const Files& files, const Workspace& workspace) {
   auto known = by_name(files);
   sim::Case core = convert::to_core(message);
-  if (!core.hull.offsets_file.empty()) {
-    const auto file = known.find(core.hull.offsets_file);
+  std::set<std::string> used;
+  for (const NamedFile& named : files_of(core)) {
+    const auto file = known.find(*named.name);
     if (file == known.end())
-      throw convert::InputError("INVALID_FILES", {{sim::Diagnostic::Severity::error, core.dim == 2                                   ? "hull.offsets_section.file"
-                                                                                     : core.hull.shape == sim::Hull::Shape::stl ? "hull.stl.file"
-                                                                                                                                 : "hull.offsets_hull.file",
-                                                   fmt::format("'{}' did not come with the case", core.hull.offsets_file),
+      throw convert::InputError("INVALID_FILES", {{sim::Diagnostic::Severity::error, named.field,
+                                                   fmt::format("'{}' did not come with the case", *named.name),
                                                    "send it in files, under the same name"}});
-    core.hull.offsets_file = workspace.keep_file(file->second->content());
-    known.erase(file);
+    used.insert(*named.name);
+    *named.name = workspace.keep_file(file->second->content());
   }
+  for (const std::string& name : used) known.erase(name);
   if (!known.empty())
     throw convert::InputError("INVALID_FILES", {{sim::Diagnostic::Severity::error, "files",
                                                  fmt::format("'{}' is named nowhere in the case", known.begin()->first),

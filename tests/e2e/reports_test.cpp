@@ -70,6 +70,32 @@ TEST_F(Reports, OfflineAndOnlineSayTheSame) {
   EXPECT_EQ(here, there);
 }
 
+TEST_F(Reports, WavePrintsAndDrawsWhatACaseAsksFor) {
+  const Finished regular = offline({"wave", small, "--json"}, "/bin/seaway-run");
+  ASSERT_EQ(regular.code, 0) << regular.output;
+  EXPECT_NEAR(json::parse(regular.output)["length_m"].get<double>(), 2.935, 0.005);
+  const std::string sea = source + "/tests/e2e/sea.yaml";
+  const Finished irregular = offline({"wave", sea, "--json", "--out", folder_ / "wave"}, "/bin/seaway-run");
+  ASSERT_EQ(irregular.code, 0) << irregular.output;
+  const json report = json::parse(irregular.output);
+  EXPECT_EQ(report["components"].size(), 40u);
+  EXPECT_NEAR(report["realised"]["significant_height_m"].get<double>(), 0.06, 0.0015);
+  EXPECT_LT(report["realised"]["zero_crossing_period_s"].get<double>(), 1.1);
+  EXPECT_GT(fs::file_size(folder_ / "wave/wave.png"), 10000u);
+  EXPECT_THAT(offline({"wave", sea}, "/bin/seaway-run").output, HasSubstr("Tz"));
+  EXPECT_EQ(offline({"wave", source + "/tests/e2e/decay.yaml"}, "/bin/seaway-run").code, 2) << "calm water";
+}
+
+TEST_F(Reports, TheEmptyTankIsMeasured) {
+  const Finished found = offline({"wave", source + "/tests/e2e/sea.yaml", "--json", "--calibrate", "--duration", "3", "--threads", "1", "--run",
+                                  folder_ / "tank"}, "/bin/seaway-run");
+  ASSERT_EQ(found.code, 0) << found.output;
+  const json report = json::parse(found.output)["calibration"];
+  EXPECT_NEAR(report["height_m"].get<double>() / report["asked_height_m"].get<double>(), 1, 0.15) << "three cells in Hs";
+  EXPECT_NEAR(report["peak_period_s"].get<double>() / report["asked_peak_period_s"].get<double>(), 1, 0.15);
+  EXPECT_LT(report["reflection"].get<double>(), 1) << "two and a half periods say no more";
+}
+
 TEST_F(Reports, ARealDecayOnCoarseCells) {
   const Finished run = offline({source + "/tests/e2e/decay.yaml", "-o", folder_ / "run", "-q", "--threads", "1"}, "/bin/seaway-run");
   ASSERT_EQ(run.code, 0) << run.output;
