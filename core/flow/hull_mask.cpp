@@ -3,10 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/flow/near_hull.hpp"
+
 namespace seaway::flow {
 
 using field::filled;
 using field::for_box;
+
+namespace {
+
+/// Cells of the finest level that there must be about the hull: extension, planes and the volume book look so far.
+constexpr double cells_about_hull = 4;
+
+}  // namespace
 
 template <int Dim>
 HullMask<Dim>::HullMask(const Forest<Dim>& forest, std::shared_ptr<const hull::Hull<Dim>> hull,
@@ -179,10 +188,10 @@ void HullMask<Dim>::update(const motion::Pose<Dim>& now, const motion::Pose<Dim>
     }
   }
   const Vec<Dim> h = window_.forest().cell_size(window_.forest().n_levels() - 1);
-  const double clear = clearance_ * h.minCoeff();
-  const auto touches = [&](const Vec<Dim>& middle, double reach) {
+  const Vec<Dim> around = cells_about_hull * h;
+  const auto touches = [&](const Vec<Dim>& low, const Vec<Dim>& high) {
     for (const auto& pose : {now, half_step})
-      if (hull_->signed_distance(motion::earth_to_hull<Dim>(body_, pose, middle)) < reach + clear) return true;
+      if (comes_near<Dim>(*hull_, body_, pose, low - around, high + around, 0.0)) return true;
     return false;
   };
   moved_ = window_.cover(lower - clearance_ * h, upper + clearance_ * h, touches) || !has_pose_;

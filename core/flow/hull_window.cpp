@@ -18,9 +18,9 @@ using field::offset;
 
 template <int Dim>
 void HullWindow<Dim>::check_missing(const Touches& touches) const {
-  const double reach = 0.5 * BlockShape<Dim>::n * h_.norm();
+  const Vec<Dim> half = 0.5 * BlockShape<Dim>::n * h_;
   for (const Vec<Dim>& x : missing_) {
-    if (!touches(x, reach)) continue;
+    if (!touches(x - half, x + half)) continue;
     fail(ErrorCode::failed_precondition,
          "the hull has left the region refined for it near (y, z) = ({:.3f}, {:.3f}) m; raise hull_sweep, "
          "hull_heave or hull_margin of the stage's mesh, or check why it moves so far",

@@ -29,8 +29,8 @@ class HullWindow {
  public:
   explicit HullWindow(const Forest<Dim>& forest) : forest_(forest) {}
 
-  /// Whether the hull may touch a block with this middle and half diagonal [m].
-  using Touches = std::function<bool(const Vec<Dim>& middle, double reach)>;
+  /// Whether the hull may touch a box (earth axes, [m]).
+  using Touches = std::function<bool(const Vec<Dim>& lower, const Vec<Dim>& upper)>;
 
   /// Covers [lower, upper] (earth axes) with whole blocks. Throws Error(failed_precondition) when a block
   /// there that the hull may touch is not of the finest level: the hull has left the region refined for it.

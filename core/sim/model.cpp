@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/flow/near_hull.hpp"
 #include "core/sim/build_hull.hpp"
 #include "core/sim/build_ship.hpp"
 #include "core/sim/build_wave.hpp"
@@ -93,8 +94,8 @@ Model<Dim> make_model(const Case& c) {
 
 namespace {
 
-/// Of the blocks that overlap the box swept by the hull, those that come near the hull itself at some roll
-/// angle of the sweep. A ship fills less than half of its box; in a section the box is kept.
+/// Of the blocks that overlap the box swept by the hull, those that come within the margin of the hull itself at some
+/// roll angle of the sweep. A ship fills less than half of its box; in a section the box is kept.
 mesh::RefineRule<3> refine_about_hull(const Model<3>& m, const MeshRule& rule, const mesh::RefinedBox<3>& box) {
   const double margin = rule.hull_margin > 0 ? rule.hull_margin : 8 * rule.hull_cell;
   const double heave = rule.hull_heave > 0 ? rule.hull_heave : 0.25 * (m.body.cog.z() - m.rest_cog.z());
@@ -104,19 +105,14 @@ mesh::RefineRule<3> refine_about_hull(const Model<3>& m, const MeshRule& rule, c
   for (int k = 0; k < n_angles; ++k)
     poses.push_back(motion::make_pose<3>(m.start_pose.cog, {-rule.hull_sweep + k * turn, 0, 0}));
   // Cells, and with them the window's clearance, may be longer along x.
-  const Vec3 more = Vec3::Constant(margin) * m.description.stretch_x;
-  const auto in_box = mesh::refine_boxes<3>(m.grid, {{box.lower - more, box.upper + more, box.cell}});
-  return [hull = m.hull, body = m.body, poses, margin, heave, turn, in_box](const Vec3& lower, const Vec3& upper,
-                                                                          int level) {
+  const Vec3 around(margin * m.description.stretch_x, margin, margin + heave);
+  const auto in_box = mesh::refine_boxes<3>(m.grid, {{box.lower - around, box.upper + around, box.cell}});
+  return [hull = m.hull, body = m.body, poses, around, turn, in_box](const Vec3& lower, const Vec3& upper, int level) {
     if (!in_box(lower, upper, level)) return false;
-    const Vec3 middle = 0.5 * (lower + upper);
     for (const auto& pose : poses) {
-      const Vec3 r = middle - pose.cog;
-      // What the hull can reach between two of the angles, and by heave.
-      const double between = 0.5 * turn * std::hypot(r.y(), r.z()) + heave;
-      const double reach = 0.5 * (upper - lower).norm() + margin + between;
-      // Away from the walls the table of distances is coarse.
-      if (hull->signed_distance(motion::earth_to_hull<3>(body, pose, middle)) < 1.05 * reach) return true;
+      const Vec3 r = 0.5 * (lower + upper) - pose.cog;
+      const double between = 0.5 * turn * std::hypot(r.y(), r.z());  // what the hull reaches between two angles
+      if (flow::comes_near<3>(*hull, body, pose, lower - around, upper + around, between)) return true;
     }
     return false;
   };

@@ -48,6 +48,8 @@ void run_pressure_scaling(const Context& context, Results& results);
 void run_mapping(const Context& context, Results& results);
 void run_threads(const Context& context, Results& results);
 void run_ship_held(const Context& context, Results& results);
+void run_dtmb5415_decay_intact(const Context& context, Results& results);
+void run_dtmb5415_decay_damaged(const Context& context, Results& results);
 void run_cascade_section(const Context& context, Results& results);
 
 }  // namespace seaway::validation

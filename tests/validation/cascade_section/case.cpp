@@ -1,61 +1,16 @@
 // [cascade_section] The example through its three meshes and on the finest alone; see README.md.
-#include <unistd.h>
-
 #include <cmath>
-#include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "tests/validation/cascade_section/picture.hpp"
-#include "tests/validation/cascade_section/run_record.hpp"
 #include "tests/validation/cases.hpp"
+#include "tests/validation/support/kept_runs.hpp"
 #include "tests/validation/support/tank_run.hpp"
 
 namespace seaway::validation {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// The folder given with --results, else one that goes away with the case.
-class Workspace {
- public:
-  explicit Workspace(const std::string& given)
-      : path_(given.empty() ? fs::temp_directory_path() /
-                                  ("seaway_cascade_section_" + std::to_string(::getpid()))
-                            : fs::path(given)),
-        keep_(!given.empty()) {
-    fs::create_directories(path_);
-  }
-  ~Workspace() {
-    std::error_code ignored;
-    if (!keep_) fs::remove_all(path_, ignored);
-  }
-  Workspace(const Workspace&) = delete;
-  Workspace& operator=(const Workspace&) = delete;
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-  bool keep_;
-};
-
-/// Tells one version of the example from another.
-std::string example_digest() {
-  std::ifstream file(std::string(SEAWAY_EXAMPLES) + "/dtmb5415_section_beam_waves.yaml");
-  std::stringstream text;
-  text << file.rdbuf();
-  return std::to_string(std::hash<std::string>{}(text.str()));
-}
-
-/// A run that an earlier call finished is read, not run again.
-RunRecord finished_run(const Workspace& workspace, const std::string& name, const sim::Case& c,
-                       int threads, const std::function<bool(double, int)>& enough) {
-  RunRecord record;
-  if (load(workspace.file(name + ".json"), record)) return record;
-  record = run_and_record(c, workspace.file(name), threads, enough, name + " " + example_digest());
-  save(record, workspace.file(name + ".json"));
-  return record;
-}
+constexpr const char* example = "dtmb5415_section_beam_waves.yaml";
 
 /// A few seconds of the same, to see that it works: no bars.
 void shorten(sim::Case& c) {
@@ -94,17 +49,17 @@ double amplitude(const RunRecord& run, const std::vector<double>& signal, double
 }  // namespace
 
 void run_cascade_section(const Context& context, Results& results) {
-  const Workspace workspace(context.results);
+  const KeptRuns runs(context.results, "cascade_section");
   sim::Case c = example_case();
   if (context.quick()) shorten(c);
-  const RunRecord cascade = finished_run(workspace, "cascade", c, context.threads, {});
+  const RunRecord cascade = runs.finished("cascade", example, c, context.threads, {});
   const double end = cascade.end_time();
   const RunRecord single =
-      finished_run(workspace, "single", single_mesh(c), context.threads,
+      runs.finished("single", example, single_mesh(c), context.threads,
                    [&](double t, int stage) { return stage > 0 && t >= end - 1e-9; });
   if (!context.results.empty()) {
-    std::ofstream(workspace.file("table.md")) << table_of(cascade, single);
-    std::ofstream(workspace.file("histories.svg")) << picture_of(cascade, single);
+    std::ofstream(runs.file("table.md")) << table_of(cascade, single);
+    std::ofstream(runs.file("histories.svg")) << picture_of(cascade, single);
   }
 
   const double period = c.wave.period, cpu = cascade.total_cpu_s;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tests/validation/cascade_section/run_record.hpp"
+#include "tests/validation/support/run_record.hpp"
 
 namespace seaway::validation {
 

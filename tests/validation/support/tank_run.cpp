@@ -95,10 +95,10 @@ sim::Case barge_case(double h, double roll) {
   return c;
 }
 
-sim::Case example_case() {
+sim::Case example_case(const std::string& file) {
   const std::string folder = SEAWAY_EXAMPLES;
   v1::Case message;
-  yaml::read_file(folder + "/dtmb5415_section_beam_waves.yaml", message);
+  yaml::read_file(folder + "/" + file, message);
   sim::Case c = convert::to_core(message);
   c.folder = folder;
   return c;

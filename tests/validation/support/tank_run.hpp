@@ -52,8 +52,8 @@ sim::Case barge_case(double h, double roll);
 /// The same without damping zones, in a closed book: nothing enters or leaves the tank.
 sim::Case barge_in_plain_tank(double h, double roll);
 
-/// The example case of the project: damaged section in beam waves.
-sim::Case example_case();
+/// A case of client/examples; by default that of ./quickstart: damaged section in beam waves.
+sim::Case example_case(const std::string& file = "dtmb5415_section_beam_waves.yaml");
 
 /// For the example: meshes like that of its last stage, about `cells` cells (met to a tenth from 20
 /// k to 500 k). Cells by halvings, the rest by the length of the finest bands.

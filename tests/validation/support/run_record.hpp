@@ -1,4 +1,4 @@
-// What is kept of one run of the example: histories with the CPU time at each sample, and stages.
+// What is kept of one run: histories with the CPU time at each sample, and stages.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-#include "tests/validation/cascade_section/run_record.hpp"
+#include "tests/validation/support/run_record.hpp"
 
 #include <algorithm>
 #include <filesystem>

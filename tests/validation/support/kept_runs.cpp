@@ -1,0 +1,47 @@
+#include "tests/validation/support/kept_runs.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace seaway::validation {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Tells one version of an example from another.
+std::string digest_of(const std::string& example) {
+  std::ifstream file(std::string(SEAWAY_EXAMPLES) + "/" + example);
+  std::stringstream text;
+  text << file.rdbuf();
+  return std::to_string(std::hash<std::string>{}(text.str()));
+}
+
+}  // namespace
+
+KeptRuns::KeptRuns(const std::string& folder, const std::string& name)
+    : path_(folder.empty() ? (fs::temp_directory_path() / ("seaway_" + name + "_" + std::to_string(::getpid()))).string()
+                           : folder),
+      keep_(!folder.empty()) {
+  fs::create_directories(path_);
+}
+
+KeptRuns::~KeptRuns() {
+  std::error_code ignored;
+  if (!keep_) fs::remove_all(path_, ignored);
+}
+
+std::string KeptRuns::file(const std::string& name) const { return (fs::path(path_) / name).string(); }
+
+RunRecord KeptRuns::finished(const std::string& name, const std::string& example, const sim::Case& c, int threads,
+                             const std::function<bool(double, int)>& enough) const {
+  RunRecord record;
+  if (load(file(name + ".json"), record)) return record;
+  record = run_and_record(c, file(name), threads, enough, name + " " + digest_of(example));
+  save(record, file(name + ".json"));
+  return record;
+}
+
+}  // namespace seaway::validation
