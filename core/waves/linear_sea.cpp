@@ -24,6 +24,23 @@ double dot(const double* a, const double* b, int n) {
   return sum;
 }
 
+/// 0 where the heading is along an axis, so that s is the same, to the bit, all along a crest.
+double component_of(double direction) { return std::abs(direction) < 1e-12 ? 0 : direction; }
+
+/// The column that a thread asked for last. In three dimensions the columns of a block come in rows along the crests
+/// of waves that go along an axis: only the first of a row is worked out.
+struct LastColumn {
+  std::uint64_t sea = 0;  ///< which one; 0: none yet
+  double s = 0, t = 0;
+  std::vector<double> z;
+  std::vector<Vec3> velocity;
+};
+
+std::uint64_t next_sea() {
+  static std::atomic<std::uint64_t> count{0};
+  return ++count;
+}
+
 class LinearSea final : public WaveField {
  public:
   explicit LinearSea(const LinearSeaSpec& spec);
@@ -59,6 +76,7 @@ class LinearSea final : public WaveField {
   Vec3 at_height(const Row& cosine, const Row& sine, double z) const;
   Vec3 turned(double u, double w) const { return {u * cos_heading_, u * sin_heading_, w}; }
 
+  const std::uint64_t id_ = next_sea();
   LinearSeaSpec spec_;
   int n_ = 0;  ///< components, filled up with nothing to whole lanes
   std::vector<double> amplitude_, k_, omega_, phase_;
@@ -69,7 +87,7 @@ class LinearSea final : public WaveField {
 };
 
 LinearSea::LinearSea(const LinearSeaSpec& spec)
-    : spec_(spec), cos_heading_(std::cos(spec.heading)), sin_heading_(std::sin(spec.heading)) {
+    : spec_(spec), cos_heading_(component_of(std::cos(spec.heading))), sin_heading_(component_of(std::sin(spec.heading))) {
   double sum = 0, energy = 0, slopes = 0, slope_energy = 0, stokes = 0;
   for (const Component& c : spec.components) {
     const double omega = 2 * pi * c.frequency, k = linear_wave_number(omega, spec.depth, spec.gravity);
@@ -114,7 +132,7 @@ double LinearSea::elevation(double x, double y, double t) const {
 
 /// The sea is the same all along its crests: points with the same s are worked out once.
 void LinearSea::elevation_grid(const Grid& grid, double t, std::span<double> out) const {
-  const bool along_y = std::abs(cos_heading_) < 1e-12, along_x = std::abs(sin_heading_) < 1e-12;
+  const bool along_y = cos_heading_ == 0, along_x = sin_heading_ == 0;
   if (!along_x && !along_y) return WaveField::elevation_grid(grid, t, out);
   const auto at = [&](int i, int j) -> double& { return out[static_cast<std::size_t>(j * grid.nx + i)]; };
   for (int j = 0; j < grid.ny; ++j)
@@ -184,8 +202,14 @@ Vec3 LinearSea::velocity(const Vec3& x, double t) const {
 
 void LinearSea::column_velocity(double x, double y, double t, std::span<const double> z, std::span<Vec3> velocity) const {
   SEAWAY_ASSERT(z.size() == velocity.size());
+  thread_local LastColumn last;
+  const double s = along(x, y);
+  if (last.sea == id_ && last.s == s && last.t == t && std::equal(z.begin(), z.end(), last.z.begin(), last.z.end())) {
+    std::copy(last.velocity.begin(), last.velocity.end(), velocity.begin());
+    return;
+  }
   Row cosine, sine;
-  angles(along(x, y), t, cosine, sine);
+  angles(s, t, cosine, sine);
   // Heights in the water that are equally spaced, as in a grid, need two exponentials a component in all.
   std::size_t n = 0;
   if (z.size() > 2 && z[0] > -spec_.depth) {
@@ -197,6 +221,11 @@ void LinearSea::column_velocity(double x, double y, double t, std::span<const do
       n = 0;
   }
   for (; n < z.size(); ++n) velocity[n] = at_height(cosine, sine, z[n]);
+  last.sea = id_;
+  last.s = s;
+  last.t = t;
+  last.z.assign(z.begin(), z.end());
+  last.velocity.assign(velocity.begin(), velocity.end());
 }
 
 double LinearSea::pressure(const Vec3& x, double t) const {

@@ -49,6 +49,15 @@ store::Sweep find_sweep(const Backend& b, const std::string& name, const std::st
   return std::move(*sweep);
 }
 
+/// A job that has not come to its end may still be in an early stage or grow: its numbers say so.
+v1::RaoPoint rao_point(const reports::Run& run, const store::Job& job, const v1::RaoOptions& options) {
+  v1::RaoPoint point = reports::make_rao_point(run, options);
+  if (job.state != store::State::succeeded && point.motions_size() > 0)
+    point.set_message(fmt::format("{}the job is {}, in stage {} of {}", point.message().empty() ? "" : point.message() + "; ",
+                                  store::to_string(job.state), job.progress.stage + 1, job.progress.stage_count));
+  return point;
+}
+
 v1::RaoReport rao_of_sweep(const Backend& b, const store::Sweep& sweep, const v1::RaoOptions& options) {
   std::vector<v1::RaoPoint> points;
   for (const store::SweepMember& member : sweep.members) {
@@ -56,7 +65,7 @@ v1::RaoReport rao_of_sweep(const Backend& b, const store::Sweep& sweep, const v1
     if (!job) continue;  // deleted
     reports::Run run = load_run(b, *job, motions);
     run.case_name = member.point.case_name;
-    points.push_back(reports::make_rao_point(run, options));
+    points.push_back(rao_point(run, *job, options));
   }
   return reports::make_rao_report(sweep.title, std::move(points));
 }
@@ -65,7 +74,7 @@ v1::RaoReport rao_of_jobs(const Backend& b, const v1::GetRaoReportRequest& reque
   std::vector<v1::RaoPoint> points;
   for (int i = 0; i < request.jobs_size(); ++i) {
     const store::Job job = find_job(b, request.jobs(i), fmt::format("jobs[{}]", i));
-    points.push_back(reports::make_rao_point(load_run(b, job, motions), request.options()));
+    points.push_back(rao_point(load_run(b, job, motions), job, request.options()));
   }
   const std::string title = points.size() == 1 ? points.front().title() : "";
   return reports::make_rao_report(title, std::move(points));

@@ -70,6 +70,20 @@ TEST_F(SweepService, FromOneRequestToItsTransferFunctions) {
   EXPECT_NEAR(report.points(1).motions(1).amplitude(), 0, 2e-5) << "and not at 2.8 s";
 }
 
+TEST_F(SweepService, NumbersOfARunningJobSayThatItRuns) {
+  FakeOptions fake;
+  fake.allowed_steps = std::make_shared<std::atomic<std::int64_t>>(300);
+  TestService slow(fake);
+  JobClient client(slow.server->address());
+  v1::GetRaoReportRequest rao;
+  rao.add_jobs(client.create(create_request(7, small_case(10))).job().name());
+  ASSERT_TRUE(wait_for_job(*slow.store, rao.jobs(0).substr(5), [](const auto& job) { return job.last_sequence >= 300; }));
+  const v1::RaoReport report = client.rao(rao);
+  EXPECT_GT(report.points(0).motions_size(), 0);
+  EXPECT_THAT(report.points(0).message(), ::testing::HasSubstr("the job is RUNNING, in stage 1 of 3"));
+  *fake.allowed_steps = 1'000'000;
+}
+
 TEST_F(SweepService, CancelAndErrors) {
   EXPECT_EQ(status_of([&] { client_.sweep("sweeps/nothing"); }), StatusCode::NOT_FOUND);
   EXPECT_EQ(status_of([&] { client_.sweep("jobs/nothing"); }), StatusCode::INVALID_ARGUMENT);

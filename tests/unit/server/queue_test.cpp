@@ -64,6 +64,23 @@ TEST_F(QueueTest, RunsJobsToTheirEnd) {
   EXPECT_EQ(store_->find(b)->last_sequence, 150);
 }
 
+TEST_F(QueueTest, ATableOfElevationsTravelsWithItsCase) {
+  v1::Case m = small_case();
+  auto& series = *m.mutable_wave()->mutable_time_series();
+  series.set_file("gauge.csv");
+  series.set_lower_cutoff_hz(0.3);
+  series.set_upper_cutoff_hz(2);
+  auto request = create_request(1, m);
+  EXPECT_THAT(why_refused(request), ::testing::HasSubstr("wave.time_series.file: 'gauge.csv' did not come with the case"));
+  auto& file = *request.add_files();
+  file.set_name("gauge.csv");
+  file.set_content("0 0.01\n0.1 0.02\n");
+  EXPECT_EQ(why_refused(request), "accepted");
+  const sim::Case bound = bind_case(m, request.files(), workspace_);
+  EXPECT_TRUE(std::filesystem::exists(bound.wave.file)) << "under the digest of its content, not under a name of the client";
+  EXPECT_NE(std::filesystem::path(bound.wave.file).filename(), "gauge.csv");
+}
+
 TEST_F(QueueTest, RepeatedSubmitGivesTheSameJob) {
   const std::string a = submit(1);
   EXPECT_EQ(submit(1), a);

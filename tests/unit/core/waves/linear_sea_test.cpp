@@ -68,6 +68,26 @@ TEST(LinearSea, ColumnsAgreeWithPointsBelowAndAboveTheSurface) {
   }
 }
 
+TEST(LinearSea, ColumnsAlongACrestAreTheSameAndOthersAreNotMistakenForThem) {
+  const auto sea = make_linear_sea(jonswap(1)), other = make_linear_sea(jonswap(2));
+  std::array<double, 5> z{-0.2, -0.15, -0.1, -0.05, 0};
+  std::array<Vec3, 5> first, next;
+  const auto differs = [&] { return (first[2] - next[2]).norm(); };
+  sea->column_velocity(0, 1.1, 4, z, first);
+  sea->column_velocity(7.3, 1.1, 4, z, next);
+  EXPECT_EQ(differs(), 0) << "farther along the crest";
+  sea->column_velocity(7.3, 1.2, 4, z, next);
+  EXPECT_GT(differs(), 1e-5) << "another place";
+  sea->column_velocity(0, 1.1, 4.1, z, next);
+  EXPECT_GT(differs(), 1e-5) << "another time";
+  other->column_velocity(0, 1.1, 4.1, z, next);
+  other->column_velocity(0, 1.1, 4, z, next);
+  EXPECT_GT(differs(), 1e-5) << "another sea";
+  z[2] = -0.11;
+  sea->column_velocity(0, 1.1, 4, z, next);
+  EXPECT_GT(differs(), 1e-5) << "other heights";
+}
+
 TEST(LinearSea, VelocityIsSolenoidalContinuousAndDiesOutUpwards) {
   const auto sea = make_linear_sea(jonswap());
   const double h = 1e-5, t = 2.2;
