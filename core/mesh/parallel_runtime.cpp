@@ -10,6 +10,10 @@ namespace seaway::mesh {
 ParallelRuntime::ParallelRuntime() {
   // A single process: keep MPI off the network and away from shared-memory files.
   setenv("OMPI_MCA_btl", "self", 0);
+  setenv("OMPI_MCA_pml", "ob1", 0);
+  setenv("OMPI_MCA_osc", "^ucx", 0);
+  // Without this each process starts a daemon of Open MPI beside it, which also has to be installed.
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
   setenv("OMPI_MCA_orte_base_help_aggregate", "0", 0);
   int provided = 0;
