@@ -48,6 +48,7 @@ void read_tank(const v1::Case& message, int dim, sim::Tank& tank, Checker& check
     }
   }
   if (m.has_open_top()) tank.open_top = m.open_top();
+  read_no_slip(m, dim, tank, check);
 }
 
 void read_regular(const v1::RegularWave& m, int dim, sim::Wave& wave, Checker& check) {
@@ -173,6 +174,7 @@ sim::Case to_core(const v1::Case& m) {
       check.problem("wave", "says nothing", "write calm: {} or regular: with height_m and period_s");
   }
   read_zones(m.zones(), c.zones, check);
+  if (m.has_turbulence()) read_turbulence(m.turbulence(), c.turbulence, check);
   if (m.has_hull()) read_hull(m.hull(), c.dim, c.hull, check);
   read_body(m, c.body, check);
   read_time(m.time(), c.time, check);
