@@ -185,7 +185,7 @@ void HullWalls<Dim>::find_stress(const HullMask<Dim>& mask, const FlowState<Dim>
     if (!has_wall && !beside) return;
     const Look seen = look(mask, i, twist);
     if (!seen.valid) return;
-    const bool near = beside && phi[at] > 0 && phi[at] <= seen.cell;
+    const bool near = beside && phi[at] > 0 && phi[at] <= image_distance * seen.cell;
     if (!has_wall && !near) return;
     const double stress = stress_of(mask, seen);
     if (near) {

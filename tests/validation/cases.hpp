@@ -48,5 +48,11 @@ void run_mapping(const Context& context, Results& results);
 void run_threads(const Context& context, Results& results);
 void run_ship_held(const Context& context, Results& results);
 void run_cascade_section(const Context& context, Results& results);
+void run_taylor_green(const Context& context, Results& results);
+void run_lid_cavity(const Context& context, Results& results);
+void run_decaying_turbulence(const Context& context, Results& results);
+void run_channel(const Context& context, Results& results);
+void run_wave_train_rans(const Context& context, Results& results);
+void run_barge_roll_decay_rans(const Context& context, Results& results);
 
 }  // namespace seaway::validation
