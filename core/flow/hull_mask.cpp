@@ -241,7 +241,7 @@ linear::RigidRows<Dim> HullMask<Dim>::rigid_rows(const HullGeometry<Dim>& g) con
       cut = cut || lo < 1 || hi < 1;
       any_open = any_open || lo > 0 || hi > 0;
     }
-    if (!cut || !any_open) return;
+    if (!cut || !any_open || window_.tile_of(i) < 0) return;
     Eigen::Matrix<double, linear::n_dof<Dim>, 1> j = Eigen::Matrix<double, linear::n_dof<Dim>, 1>::Zero();
     for (int axis = 0; axis < Dim; ++axis) {
       const auto ax = static_cast<std::size_t>(axis);

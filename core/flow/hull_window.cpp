@@ -106,7 +106,9 @@ std::int64_t HullWindow<Dim>::global_cell(const IVec<Dim>& i) const {
   constexpr int nb = BlockShape<Dim>::n;
   IVec<Dim> cell{};
   for (int a = 0; a < Dim; ++a) cell[a] = i[a] % nb;
-  const Tile& tile = tiles_[static_cast<std::size_t>(tile_of(i))];
+  const int t = tile_of(i);
+  if (t < 0) return -1;
+  const Tile& tile = tiles_[static_cast<std::size_t>(t)];
   return static_cast<std::int64_t>(tile.block) * BlockShape<Dim>::cells + offset<Dim>(cell, cell_strides<Dim>());
 }
 

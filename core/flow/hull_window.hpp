@@ -71,7 +71,7 @@ class HullWindow {
   /// Whether the faces on a side (0: lower, 1: upper) of a tile lie on the tank's own side, and the hull may reach
   /// through it.
   bool at_tank_side(const Tile& tile, int axis, int side) const;
-  /// Index block * cells + cell in a field of the forest.
+  /// Index block * cells + cell in a field of the forest; -1 where there is no tile.
   std::int64_t global_cell(const IVec<Dim>& i) const;
 
   void load_cells(const CellField<double, Dim>& f, std::vector<double>& out) const;

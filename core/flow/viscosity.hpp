@@ -1,6 +1,6 @@
 // Viscous stress. Without a turbulence model
-//   u += dt / rho_f  div( mu grad u ),   mu = rho nu of the mixture, constant over each staggered volume;
-// with one
+//   u += dt / rho_f  div( mu grad u ),   mu = rho nu of the mixture, constant over each staggered volume:
+// at the free surface the air then holds the water as if it were as heavy. With one, or with nu_t = 0 given,
 //   u += dt / rho_f  div( mu_e (grad u + grad u^T) ),   mu_e = rho (nu + nu_t),
 // on edges the harmonic mean of rho of the cells around times the mean of their nu + nu_t: no light volume feels
 // the viscosity of the water beside it. No limit on the step: one

@@ -28,10 +28,12 @@ struct Fluids {
 
 /// k-epsilon and the walls of the hull.
 struct Turbulence {
-  enum class Model { laminar, standard, stabilised };
+  /// none: nothing was asked for; molecular stress in its first form, which is not continuous through the surface.
+  enum class Model { none, laminar, standard, stabilised };
   enum class Walls { slip, no_slip, wall_function, non_equilibrium };
-  Model model = Model::laminar;
+  Model model = Model::none;
   Walls walls = Walls::slip;
+  bool has_k_epsilon() const { return model == Model::standard || model == Model::stabilised; }
   double intensity = 0.01;      ///< sqrt(2 k / 3) over `velocity`, at the start and where waves come in
   double velocity = 0;          ///< [m/s]; 0: pi height / period of the wave
   double length_scale = 0.005;  ///< C_mu^(3/4) k^(3/2) / epsilon there [m]

@@ -11,7 +11,7 @@ namespace {
 void check_walls(CheckState& s) {
   const Turbulence& t = s.c.turbulence;
   Findings& f = s.findings;
-  const bool laminar = t.model == Turbulence::Model::laminar;
+  const bool laminar = !t.has_k_epsilon();
   if (t.walls == Turbulence::Walls::slip) return;
   const bool law = t.walls != Turbulence::Walls::no_slip;
   if (law && laminar)
@@ -61,7 +61,7 @@ void check_turbulence(CheckState& s) {
   Findings& f = s.findings;
   check_tank_sides(s);
   check_walls(s);
-  if (t.model == Turbulence::Model::laminar) {
+  if (!t.has_k_epsilon()) {
     if (t.buoyancy)
       f.error("turbulence.buoyancy", "there is no turbulence that it could damp", "give a model, or remove it");
     return;

@@ -34,7 +34,7 @@ std::shared_ptr<const waves::WaveField> wave_of(const Case& c) {
 flow::TurbulenceSpec turbulence_of(const Case& c, const waves::WaveField* wave) {
   const Turbulence& t = c.turbulence;
   flow::TurbulenceSpec spec;
-  if (t.model == Turbulence::Model::laminar) return spec;
+  if (!t.has_k_epsilon()) return spec;
   spec.model = t.model == Turbulence::Model::standard ? flow::TurbulenceSpec::Model::standard
                                                       : flow::TurbulenceSpec::Model::stabilised;
   spec.buoyancy = t.buoyancy;

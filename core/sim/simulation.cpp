@@ -66,6 +66,7 @@ Simulation<Dim>::Simulation(std::shared_ptr<const Model<Dim>> model, std::unique
     turbulence_ = std::make_unique<flow::KEpsilon<Dim>>(*forest_, model_->fluids, model_->boundaries, model_->turbulence);
     turbulence_->initialise(state_);
   }
+  if (c.turbulence.model == Turbulence::Model::laminar) no_eddies_ = CellField<double, Dim>(*forest_);
   if (mask_ && model_->wall_model != flow::WallModel::slip)
     walls_ = std::make_unique<flow::HullWalls<Dim>>(model_->wall_model, model_->fluids);
   dt_ = next_dt_ = model_->dt;
@@ -321,8 +322,9 @@ motion::DofMatrix<Dim> Simulation<Dim>::inverse_mass() const {
 template <int Dim>
 void Simulation<Dim>::stress(double dt) {
   if (!model_->description.fluids.viscous) return;
+  const CellField<double, Dim>* nu_t = turbulence_ ? &turbulence_->nu_t() : no_eddies_.data().empty() ? nullptr : &no_eddies_;
   if (!turbulence_ && !walls_) {
-    viscosity_.apply(state_, dt);
+    viscosity_.apply(state_, dt, nu_t);
     return;
   }
   clock_.charge("forcing");
@@ -343,7 +345,7 @@ void Simulation<Dim>::stress(double dt) {
     }
     turbulence_->update_nu_t(state_);
   }
-  viscosity_.apply(state_, dt, turbulence_ ? &turbulence_->nu_t() : nullptr);
+  viscosity_.apply(state_, dt, nu_t);
   if (walls_) friction_ = walls_->apply(*mask_, state_, body_.twist, dt);
   clock_.charge("turbulence");
 }

@@ -166,6 +166,7 @@ class Simulation {
   flow::Projection<Dim> projection_;
   flow::Viscosity<Dim> viscosity_;
   std::unique_ptr<flow::KEpsilon<Dim>> turbulence_;
+  CellField<double, Dim> no_eddies_;  ///< nu_t = 0 for `laminar`; empty otherwise
   std::unique_ptr<flow::HullWalls<Dim>> walls_;
   std::unique_ptr<flow::HullMask<Dim>> mask_;
   flow::HullExtension<Dim> extension_;

@@ -9,7 +9,7 @@ namespace seaway::convert {
 void read_turbulence(const v1::Turbulence& m, sim::Turbulence& t, Checker& check) {
   using Model = sim::Turbulence::Model;
   using Walls = sim::Turbulence::Walls;
-  t.model = m.model() == v1::Turbulence::MODEL_UNSPECIFIED ? Model::stabilised : static_cast<Model>(m.model() - 1);
+  t.model = m.model() == v1::Turbulence::MODEL_UNSPECIFIED ? Model::stabilised : static_cast<Model>(m.model());
   const bool laminar = t.model == Model::laminar;
   t.walls = laminar ? Walls::slip : Walls::wall_function;
   if (m.walls() != v1::Turbulence::WALLS_UNSPECIFIED) t.walls = static_cast<Walls>(m.walls() - 1);
@@ -44,9 +44,9 @@ void read_no_slip(const v1::Tank& m, int dim, sim::Tank& tank, Checker& check) {
 }
 
 void put_turbulence(const sim::Turbulence& t, v1::Turbulence& m) {
-  m.set_model(static_cast<v1::Turbulence::Model>(static_cast<int>(t.model) + 1));
+  m.set_model(static_cast<v1::Turbulence::Model>(static_cast<int>(t.model)));
   m.set_walls(static_cast<v1::Turbulence::Walls>(static_cast<int>(t.walls) + 1));
-  if (t.model == sim::Turbulence::Model::laminar) return;
+  if (!t.has_k_epsilon()) return;
   m.set_intensity(t.intensity);
   if (t.velocity > 0) m.set_velocity_m_per_s(t.velocity);
   m.set_length_scale_m(t.length_scale);

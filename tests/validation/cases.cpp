@@ -23,6 +23,8 @@ const std::vector<Case>& all_cases() {
       {"mapping", Suite::quick,
        "fields from one mesh to the next: kept, conserved, bounded, accurate", run_mapping},
       {"taylor_green", Suite::quick, "order of the decay of a vortex", run_taylor_green},
+      {"viscous_wave", Suite::quick, "a standing wave between viscous fluids against its exact solution",
+       run_viscous_wave},
       {"lid_cavity", Suite::quick, "flow in a square driven by its lid against Ghia et al.", run_lid_cavity},
       {"decaying_turbulence", Suite::quick, "k-epsilon without production against its exact solution",
        run_decaying_turbulence},

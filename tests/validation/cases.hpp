@@ -48,6 +48,7 @@ void run_mapping(const Context& context, Results& results);
 void run_threads(const Context& context, Results& results);
 void run_ship_held(const Context& context, Results& results);
 void run_cascade_section(const Context& context, Results& results);
+void run_viscous_wave(const Context& context, Results& results);
 void run_taylor_green(const Context& context, Results& results);
 void run_lid_cavity(const Context& context, Results& results);
 void run_decaying_turbulence(const Context& context, Results& results);

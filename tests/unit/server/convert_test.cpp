@@ -61,7 +61,8 @@ TEST(ConvertCase, WritesEveryDefaultOut) {
 
 TEST(ConvertCase, TurbulenceAndNoSlipSidesGoThereAndBack) {
   v1::Case m = small();
-  EXPECT_EQ(to_core(m).turbulence.model, sim::Turbulence::Model::laminar);
+  EXPECT_EQ(to_core(m).turbulence.model, sim::Turbulence::Model::none);
+  EXPECT_FALSE(to_proto(to_core(m)).has_turbulence());
   m.mutable_turbulence()->set_intensity(0.05);
   v1::NoSlipSide& lid = *m.mutable_tank()->add_no_slip();
   lid.set_side(v1::TANK_SIDE_BOTTOM);

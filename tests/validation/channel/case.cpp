@@ -183,9 +183,101 @@ Flow develop(const Channel& channel, double turnovers, int threads) {
   return out;
 }
 
+struct Laminar {
+  double error = 0;    ///< largest deviation from the parabola, over the speed in the middle
+  double balance = 0;  ///< pressure gradient over that of the exact solution, less 1
+};
+
+/// Plane Poiseuille flow at Re 100 (half width, speed in the middle) between no-slip walls.
+Laminar laminar_flow(const Channel& channel, double duration, int threads) {
+  sim::Case c = case_of(channel);
+  const double height = channel.height(), middle_speed = 1, nu = middle_speed * height / 100;
+  c.fluids.nu_air = c.fluids.nu_water = nu;
+  c.turbulence = {};
+  c.turbulence.model = sim::Turbulence::Model::laminar;
+  c.turbulence.walls = sim::Turbulence::Walls::no_slip;
+  c.time.dt = 1.2 * h / middle_speed;
+  const auto run = start(c, threads);
+  const Vec2 direction = channel.direction();
+  const auto exact = [&](double from_wall) {
+    const double n = 1 - from_wall / height;
+    return middle_speed * std::max(0.0, 1 - n * n);
+  };
+  set_velocity(*run, [&](const Vec2& x, int axis) { return exact(channel.distance(x)) * direction[axis]; });
+  const auto speed = [&](const Vec2& x) {
+    return direction[0] * velocity_at(*run, 0, x) + direction[1] * velocity_at(*run, 1, x);
+  };
+  const auto flux = [&] {
+    double sum = 0;
+    for (double n = -height + 0.125 * h; n < height; n += 0.25 * h)
+      sum += 0.25 * h * speed(channel.middle() + n * channel.normal());
+    return sum;
+  };
+  const double wanted = 4.0 / 3 * middle_speed * height;
+  Record gradient;
+  while (run->time() < duration * height / middle_speed) {
+    const double factor = wanted / flux();
+    for (int axis = 0; axis < 2; ++axis) {
+      recycle(channel, *run, axis, factor, [&](int b) { return run->state().u.block(axis, b); });
+      field::restrict_faces<double, 2>(run->forest(), run->state().u, axis);
+    }
+    step(*run);
+    if (run->time() > 0.75 * duration * height / middle_speed) gradient.add(run->time(), pressure_gradient(channel, *run));
+  }
+  Laminar out;
+  double mean = 0;
+  for (const double g : gradient.value) mean -= g / static_cast<double>(gradient.value.size());
+  out.balance = mean / (2 * c.fluids.rho_water * nu * middle_speed / (height * height)) - 1;
+  for (const double side : {-1.0, 1.0})
+    for (double y = h; y < height; y += 0.25 * h) {
+      const double u = speed(channel.middle() + side * (height - y) * channel.normal());
+      out.error = std::max(out.error, std::abs(u - exact(y)) / middle_speed);
+    }
+  return out;
+}
+
+/// What a uniform flow between slip walls loses without viscosity: pressure gradient times half width over rho U^2.
+double slip_loss(const Channel& channel, int threads) {
+  sim::Case c = case_of(channel);
+  c.fluids.viscous = false;
+  c.turbulence = {};
+  c.time.dt = 0.5 * h;
+  const auto run = start(c, threads);
+  set_velocity(*run, [&](const Vec2&, int axis) { return channel.direction()[axis]; });
+  double sum = 0;
+  constexpr int steps = 60, counted = 20;
+  for (int i = 0; i < steps; ++i) {
+    for (int axis = 0; axis < 2; ++axis) {
+      recycle(channel, *run, axis, 1.0, [&](int b) { return run->state().u.block(axis, b); });
+      field::restrict_faces<double, 2>(run->forest(), run->state().u, axis);
+    }
+    step(*run);
+    if (i >= steps - counted) sum -= pressure_gradient(channel, *run) / counted;
+  }
+  return sum * channel.height() / c.fluids.rho_water;
+}
+
+/// No-slip walls, resolved: half widths of 8, 16 (and 32) cells.
+void run_laminar(const Context& context, Results& results) {
+  std::vector<Laminar> flows;
+  for (const int rows : context.quick() ? std::vector<int>{8, 16} : std::vector<int>{8, 16, 32}) {
+    Channel channel;
+    channel.half = rows + 0.37;
+    channel.blocks_up = rows / 8 + 1;
+    flows.push_back(laminar_flow(channel, 20, context.threads));
+    results.report(fmt::format("laminar_error_{}", rows), flows.back().error, "1");
+    results.report(fmt::format("laminar_balance_{}", rows), flows.back().balance, "1");
+  }
+  const std::size_t last = flows.size() - 1;
+  // First order: the outermost row of cells counts as a whole one.
+  results.expect_above("laminar_order", std::log2(flows[last - 1].error / flows[last].error), "1", 0.9);
+  results.expect_below("laminar_error", flows[last].error, "1", context.quick() ? 0.01 : 0.005);
+}
+
 }  // namespace
 
 void run_channel(const Context& context, Results& results) {
+  run_laminar(context, results);
   Channel aligned;
   if (context.quick()) {  // half as wide
     aligned.blocks_up = 3;
@@ -219,6 +311,8 @@ void run_channel(const Context& context, Results& results) {
   const Flow second = develop(oblique, 1.5, context.threads);
   results.expect_below("log_law_error_oblique", second.error, "1", 0.03);
   results.report("momentum_balance_oblique", second.balance, "1");
+  results.report("slip_loss_aligned", slip_loss(aligned, context.threads), "1");
+  results.report("slip_loss_oblique", slip_loss(oblique, context.threads), "1");
 }
 
 }  // namespace seaway::validation

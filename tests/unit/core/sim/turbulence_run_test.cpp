@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/sim/check_case.hpp"
+#include "core/sim/snapshot.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/unit/core/sim/barge_case.hpp"
 
@@ -52,6 +55,20 @@ TEST(TurbulentRun, SameBitsForAnyNumberOfThreads) {
   for (std::size_t i = 0; i < one.samples.size(); ++i) EXPECT_EQ(one.samples[i].values, three.samples[i].values);
 }
 
+TEST(TurbulentRun, PicturesHoldEnergyAndEddyViscosityAboutTheHull) {
+  const TempFolder folder;
+  const auto s = simulate(turbulent(barge(0.025)));
+  s->step();
+  const std::string path = folder / "section.json";
+  write_section(*s, 0, path);
+  nlohmann::json j;
+  std::ifstream(path) >> j;
+  const auto& t = j.at("turbulence");
+  EXPECT_EQ(t.at("tke_m2_per_s2").size(), t.at("z").at("count"));
+  EXPECT_EQ(t.at("nu_t_m2_per_s").at(0).size(), t.at("y").at("count"));
+  EXPECT_NEAR(t.at("tke_m2_per_s2").at(0).at(0), s->turbulence()->spec().tke, 1e-2 * s->turbulence()->spec().tke);
+}
+
 TEST(TurbulentRun, FrictionHasItsChannelsOnlyWithWalls) {
   const TempFolder a, b;
   Keeper with, without;
@@ -93,6 +110,43 @@ TEST(TurbulentRun, FrictionOpposesTheMotionAndSlipHasNone) {
     EXPECT_GT(-f, 0.5 * 1000 * 0.003 * v * v * 0.3);
     EXPECT_LT(-f, 0.5 * 1000 * 0.02 * v * v * 0.3);
   }
+}
+
+TEST(TurbulentRun, FrictionOpposesTheMotionInThreeDimensions) {
+  Case c;
+  c.dim = 3;
+  c.tank.lower = {-0.8, -0.8, -0.4};
+  c.tank.upper = {0.8, 0.8, 0.4};
+  c.base_cell = 0.05;
+  c.hull.shape = Hull::Shape::box;
+  c.hull.length = 0.42;
+  c.hull.beam = 0.32;
+  c.hull.height = 0.21;
+  c.body.mass = 14;
+  c.body.draft = 0.105;
+  c.body.cog = {0, 0, 0.1};
+  c.body.gyradii = {0.1, 0.1, 0.1};
+  c.body.prescribed = {{Dof::surge, 0.05, 1.0, 0}};
+  c.time.dt = 0.01;
+  c.stages.resize(1);
+  c.stages[0].mesh.hull_cell = 0.05;
+  c.stages[0].mesh.hull_sweep = 0;
+  c.stages[0].end.duration = 1;
+  c = turbulent(c);
+  auto model = std::make_shared<Model<3>>(make_model<3>(c));
+  auto forest = make_forest<3>(*model, c.stages[0].mesh, 1);
+  Simulation<3> s(model, std::move(forest), quiet_context(1));
+  s.initialise();
+  for (int i = 0; i < 8; ++i) ASSERT_FALSE(s.step().failed);
+  const auto& friction = s.friction();
+  EXPECT_GT(s.body().twist[0], 0.2);
+  EXPECT_LT(friction[0], 0);
+  // Symmetric about the centre plane, as far as the hull's table of distances is.
+  EXPECT_LT(std::abs(friction[1]), 1e-3 * std::abs(friction[0]));
+  EXPECT_LT(std::abs(friction[3]), 1e-3 * std::abs(friction[0]));
+  EXPECT_EQ(s.y_plus().size(), 1u);
+  for (const int b : s.forest().leaves())
+    for (int i = 0; i < mesh::BlockShape<3>::cells; ++i) ASSERT_GT(s.state().tke.block(b)[i], 0);
 }
 
 TEST(TurbulentRun, StressNeverLimitsTheStep) {
