@@ -118,6 +118,8 @@ JobClient::JobClient(std::shared_ptr<grpc::Channel> channel, std::string token)
       telemetry_(v1::Telemetry::NewStub(channel_)),
       stages_(v1::Stages::NewStub(channel_)),
       artifacts_(v1::Artifacts::NewStub(channel_)),
+      reports_(v1::Reports::NewStub(channel_)),
+      sweeps_(v1::Sweeps::NewStub(channel_)),
       admin_(v1::Admin::NewStub(channel_)),
       cases_(v1::Cases::NewStub(channel_)),
       authorization_(token.empty() ? "" : "Bearer " + token) {}
@@ -177,6 +179,34 @@ void JobClient::set_log_level(const std::string& level) {
   v1::SetLogLevelRequest request;
   request.set_level(level);
   unary<v1::SetLogLevelResponse>(authorization_, [&](auto* c, auto* r) { return admin_->SetLogLevel(c, request, r); });
+}
+
+v1::DecayReport JobClient::decay(const v1::GetDecayReportRequest& request) {
+  return unary<v1::DecayReport>(authorization_, [&](auto* c, auto* r) { return reports_->GetDecayReport(c, request, r); }, 60);
+}
+
+v1::RaoReport JobClient::rao(const v1::GetRaoReportRequest& request) {
+  return unary<v1::RaoReport>(authorization_, [&](auto* c, auto* r) { return reports_->GetRaoReport(c, request, r); }, 300);
+}
+
+v1::CreateSweepResponse JobClient::create_sweep(const v1::CreateSweepRequest& request) {
+  return unary<v1::CreateSweepResponse>(authorization_, [&](auto* c, auto* r) { return sweeps_->CreateSweep(c, request, r); }, 300);
+}
+
+v1::Sweep JobClient::sweep(const std::string& name) {
+  v1::GetSweepRequest request;
+  request.set_name(name);
+  return unary<v1::Sweep>(authorization_, [&](auto* c, auto* r) { return sweeps_->GetSweep(c, request, r); });
+}
+
+v1::ListSweepsResponse JobClient::list_sweeps(const v1::ListSweepsRequest& request) {
+  return unary<v1::ListSweepsResponse>(authorization_, [&](auto* c, auto* r) { return sweeps_->ListSweeps(c, request, r); });
+}
+
+v1::Sweep JobClient::cancel_sweep(const std::string& name) {
+  v1::CancelSweepRequest request;
+  request.set_name(name);
+  return unary<v1::Sweep>(authorization_, [&](auto* c, auto* r) { return sweeps_->CancelSweep(c, request, r); }, 60);
 }
 
 v1::ReadEnvelopeResponse JobClient::envelope(const v1::ReadEnvelopeRequest& request) {
@@ -283,6 +313,16 @@ std::string JobClient::resolve(const std::string& job) {
   const auto jobs = list(request);
   if (jobs.jobs_size() == 0) throw ClientError(exit_not_found, "there is no job yet; submit one");
   return jobs.jobs(0).name();
+}
+
+std::string JobClient::resolve_sweep(const std::string& sweep) {
+  if (sweep.starts_with("sweeps/")) return sweep;
+  if (sweep != "latest") return "sweeps/" + sweep;
+  v1::ListSweepsRequest request;
+  request.set_page_size(1);
+  const auto found = list_sweeps(request);
+  if (found.sweeps_size() == 0) throw ClientError(exit_not_found, "there is no sweep yet; make one");
+  return found.sweeps(0).name();
 }
 
 std::string new_request_id() {

@@ -75,6 +75,13 @@ class JobClient {
   v1::Job update(const v1::UpdateJobRequest& request);
   v1::ServerInfo info();
   void set_log_level(const std::string& level);
+  v1::DecayReport decay(const v1::GetDecayReportRequest& request);
+  v1::RaoReport rao(const v1::GetRaoReportRequest& request);
+  /// As create().
+  v1::CreateSweepResponse create_sweep(const v1::CreateSweepRequest& request);
+  v1::Sweep sweep(const std::string& name);
+  v1::ListSweepsResponse list_sweeps(const v1::ListSweepsRequest& request);
+  v1::Sweep cancel_sweep(const std::string& name);
   v1::ReadEnvelopeResponse envelope(const v1::ReadEnvelopeRequest& request);
   /// Changes of jobs after a revision until `message` returns false or the stream ends.
   grpc::Status watch_jobs(std::int64_t after, const std::function<bool(const v1::WatchJobsResponse&)>& message);
@@ -91,6 +98,8 @@ class JobClient {
 
   /// jobs/<uid> out of what a person wrote: a uid, jobs/<uid>, or latest.
   std::string resolve(const std::string& job);
+  /// sweeps/<uid>, likewise.
+  std::string resolve_sweep(const std::string& sweep);
 
  private:
   std::shared_ptr<grpc::Channel> channel_;
@@ -98,6 +107,8 @@ class JobClient {
   std::unique_ptr<v1::Telemetry::Stub> telemetry_;
   std::unique_ptr<v1::Stages::Stub> stages_;
   std::unique_ptr<v1::Artifacts::Stub> artifacts_;
+  std::unique_ptr<v1::Reports::Stub> reports_;
+  std::unique_ptr<v1::Sweeps::Stub> sweeps_;
   std::unique_ptr<v1::Admin::Stub> admin_;
   std::unique_ptr<v1::Cases::Stub> cases_;
   std::string authorization_;

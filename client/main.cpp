@@ -27,6 +27,8 @@ int main(int argc, char** argv) {
   add_jobs(app, common);
   add_job_life(app, common);
   add_results(app, common);
+  add_reports(app, common);
+  add_sweep(app, common);
   add_plot(app, common);
   try {
     app.parse(argc, argv);

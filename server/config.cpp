@@ -96,6 +96,10 @@ Settings load_settings(const Flags& flags) {
   if (m.limits().has_streams()) s.rpc.max_calls = check.count("limits.streams", m.limits().streams(), 1, 100'000);
   if (m.limits().has_job_cpu_s())
     s.limits.job_cpu_s = check.number("limits.job_cpu_s", m.limits().job_cpu_s(), convert::not_negative);
+  if (m.metrics().has_address()) s.metrics_address = m.metrics().address();
+  if (m.metrics().has_port()) s.metrics_port = check.count("metrics.port", m.metrics().port(), 0, 65535);
+  if (m.metrics().has_address() && !m.metrics().has_port())
+    check.problem("metrics.port", "is missing", "give the port, or leave metrics out for no listener");
   if (m.logging().has_level()) s.log_level = m.logging().level();
   if (m.logging().has_file()) s.log_file = m.logging().file();
   if (!flags.data_dir.empty()) s.data_dir = flags.data_dir;

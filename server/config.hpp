@@ -32,6 +32,8 @@ struct Settings {
   jobs::ProcessSettings worker;  ///< its `run` is for both
   jobs::QueueLimits limits;
   rpc::ServerSettings rpc;
+  std::string metrics_address = "127.0.0.1";
+  int metrics_port = -1;  ///< -1: no listener, 0: any free one
 };
 
 /// trace, debug, info, warn, error

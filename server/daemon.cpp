@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "server/daemon.hpp"
 
+#include <malloc.h>
 #include <pthread.h>
 #include <signal.h>
 #include <spdlog/sinks/basic_file_sink.h>
@@ -9,13 +10,17 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "core/base/error.hpp"
 #include "core/base/version.hpp"
 #include "proto/yaml.hpp"
 #include "server/config.hpp"
+#include "server/http/metrics_listener.hpp"
 #include "server/maintenance.hpp"
+#include "server/metrics/metrics.hpp"
 
 namespace seaway::server {
 namespace {
@@ -81,7 +86,29 @@ rpc::ServerFacts facts_of(const Settings& settings, const std::shared_ptr<spdlog
   return facts;
 }
 
-/// Once a minute: deletes what is older than it has to be kept.
+/// What Prometheus reads beside the counters.
+metrics::Levels levels_now(const Settings& settings, const store::JobStore& store, const rpc::Server& server) {
+  metrics::Levels out;
+  for (int state = static_cast<int>(store::State::queued); state <= static_cast<int>(store::State::cancelled); ++state)
+    out.jobs[std::string(store::to_string(static_cast<store::State>(state)))] = 0;
+  for (const auto& [state, n] : store.counts()) out.jobs[std::string(store::to_string(state))] = static_cast<double>(n);
+  out.streams = {{"samples", 0}, {"jobs", 0}, {"download", 0}};
+  const rpc::Census census = server.census();
+  for (auto& [kind, n] : out.streams)
+    if (const auto found = census.kinds.find(kind); found != census.kinds.end()) n = found->second;
+  out.stream_lag = static_cast<double>(census.largest_lag);
+  std::error_code error;
+  const auto wal = std::filesystem::file_size(settings.data_dir + "/seaway.db-wal", error);
+  if (!error) out.wal_bytes = static_cast<double>(wal);
+  const auto space = std::filesystem::space(settings.data_dir, error);
+  if (!error) out.disk_free_bytes = static_cast<double>(space.available);
+  return out;
+}
+
+/// Three dozen threads that mostly wait would each keep an arena of its own, three times the memory that is in use.
+void limit_arenas() { ::mallopt(M_ARENA_MAX, 2); }
+
+/// Once a minute: deletes what is older than it has to be kept, and gives memory back that a burst has left.
 void keep_house(const std::stop_token& stop, const Settings& settings, jobs::Queue& queue, store::JobStore& store,
                 spdlog::logger& log) {
   constexpr std::int64_t day = 86'400'000'000'000;
@@ -94,25 +121,31 @@ void keep_house(const std::stop_token& stop, const Settings& settings, jobs::Que
       if (settings.keep_days > 0)
         if (const int n = queue.expire(now - static_cast<std::int64_t>(settings.keep_days * day)); n > 0)
           log.info("event=expired jobs={}", n);
+      if (const int n = queue.sweep_files(std::chrono::hours(1)); n > 0) log.info("event=swept files={}", n);
       store.prune(settings.keep_changes, now - tombstone_days * day);
     } catch (const std::exception& error) {
       log.warn("event=keep_house text=\"{}\"", error.what());
     }
+    ::malloc_trim(0);
     std::unique_lock lock(mutex);
     wake.wait_for(lock, stop, std::chrono::minutes(1), [] { return false; });
     if (stop.stop_requested()) return;
   }
 }
 
-void serve(const Settings& settings, const std::string& address_file, const jobs::Solver& solver,
+void serve(Settings settings, const std::string& address_file, const jobs::Solver& solver,
            const std::shared_ptr<spdlog::logger>& log) {
+  metrics::Metrics metrics;
+  settings.worker.run.metrics = settings.pool.metrics = &metrics;
   jobs::Workspace workspace(settings.data_dir);
   store::SqliteOptions options;
   options.path = settings.data_dir + "/seaway.db";
   options.commit_interval = std::chrono::milliseconds(settings.commit_interval_ms);
   options.warn = [log](const std::string& text) { log->warn("event=store text=\"{}\"", text); };
+  options.committed = [&metrics](double seconds) { metrics.committed(seconds); };
   const auto store = store::open_sqlite_store(std::move(options));
   const store::Recovery recovery = store->recover(settings.max_stalled_attempts);
+  metrics.recovered(static_cast<int>(recovery.requeued.size()));
   for (const auto& uid : recovery.requeued) log->info("job={} event=recovered state=QUEUED", uid);
   for (const auto& uid : recovery.cancelled) log->info("job={} event=recovered state=CANCELLED", uid);
   for (const auto& uid : recovery.failed) log->warn("job={} event=recovered state=FAILED", uid);
@@ -127,6 +160,12 @@ void serve(const Settings& settings, const std::string& address_file, const jobs
   rpc_settings.facts = facts_of(settings, log);
   rpc::Server server(rpc_settings, queue, *store);
   const std::jthread keeper([&](const std::stop_token& stop) { keep_house(stop, settings, queue, *store, *log); });
+  std::optional<http::MetricsListener> listener;
+  if (settings.metrics_port >= 0) {
+    listener.emplace(settings.metrics_address, settings.metrics_port,
+                     [&] { return metrics.text(levels_now(settings, *store, server)); });
+    log->info("event=metrics address={}", listener->address());
+  }
   if (!address_file.empty()) write_address(address_file, server.address());
   log->info("event=listening address={} data_dir={} executor={} workers={} threads={} version={}", server.address(),
             settings.data_dir, settings.processes ? "process" : "thread", settings.pool.workers,
@@ -134,6 +173,7 @@ void serve(const Settings& settings, const std::string& address_file, const jobs
   const int signal = wait_for_signal();
   log->info("event=stopping signal={}", signal);
   const std::jthread clock = watch_the_clock(log);
+  listener.reset();
   std::jthread draining([&pool] { pool.drain(); });
   server.shutdown();
   draining.join();
@@ -153,6 +193,7 @@ void block_signals() {
 
 int run_daemon(int argc, char** argv, const jobs::Solver& solver, bool processes) {
   block_signals();
+  limit_arenas();
   CLI::App app{"seawayd: runs simulations of ships in waves and keeps their results", "seawayd"};
   Flags flags;
   std::string address_file;

@@ -122,7 +122,7 @@ void FileObserver::on_stage_finished(const sim::StageResult& result) {
   write_stages();
 }
 
-void FileObserver::on_checkpoint(const std::string&, std::int64_t) { ::fdatasync(history_); }
+void FileObserver::on_checkpoint(const std::string&, std::int64_t, double) { ::fdatasync(history_); }
 
 void FileObserver::on_artifact(const std::string& name, const std::string&, const std::string&) {
   if (std::find(artifacts_.begin(), artifacts_.end(), name) == artifacts_.end()) artifacts_.push_back(name);

@@ -29,7 +29,7 @@ class FileObserver final : public sim::RunObserver {
   void on_sample(const sim::Sample& sample) override;
   void on_progress(const sim::Progress& progress) override;
   void on_stage_finished(const sim::StageResult& result) override;
-  void on_checkpoint(const std::string& path, std::int64_t sequence) override;
+  void on_checkpoint(const std::string& path, std::int64_t sequence, double write_s) override;
   void on_artifact(const std::string& name, const std::string& path, const std::string& media_type) override;
   void on_event(const std::string& kind, const std::string& text) override;
 

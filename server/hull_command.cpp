@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "server/hull_command.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -20,8 +15,7 @@
 #include "core/sim/build_hull.hpp"
 #include "core/sim/build_ship.hpp"
 #include "core/sim/ship_report.hpp"
-
-extern char** environ;
+#include "server/gnuplot.hpp"
 
 namespace seaway::server {
 namespace {
@@ -127,27 +121,6 @@ void print_text(const sim::ShipReport& r) {
   }
   if (r.intact) print_condition("intact", *r.intact);
   if (r.damaged) print_condition("with the flooded compartments open", *r.damaged);
-}
-
-/// Runs gnuplot on a script in `folder`.
-void run_gnuplot(const fs::path& folder, const std::string& script) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  const std::string errors = (folder / "gnuplot.log").string();
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  std::string program = "gnuplot", argument = (folder / script).string();
-  char* arguments[] = {program.data(), argument.data(), nullptr};
-  pid_t pid = 0;
-  const int failed = ::posix_spawnp(&pid, "gnuplot", &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  int status = 127 << 8;
-  while (failed == 0 && ::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (failed != 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 127))
-    fail(ErrorCode::failed_precondition, "gnuplot is not on PATH; install it (Debian: gnuplot-nox) or leave --out");
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    fail(ErrorCode::failed_precondition, "gnuplot failed; see {}", errors);
-  fs::remove(errors);
 }
 
 /// Sections of the forward half to the right, of the aft half to the left.

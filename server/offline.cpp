@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "core/base/error.hpp"
@@ -23,6 +24,9 @@
 #include "server/file_observer.hpp"
 #include "server/hull_command.hpp"
 #include "server/jobs/submission.hpp"
+#include "server/report_commands.hpp"
+#include "server/signal_stop.hpp"
+#include "server/wave_command.hpp"
 
 namespace seaway::server {
 namespace {
@@ -94,10 +98,19 @@ int hull(const Options& o, const HullOptions& options) {
   return print_hull(read_core(o.case_file, message, lines), options);
 }
 
+int wave(const Options& o, WaveOptions options, const jobs::Solver& solver) {
+  v1::Case message;
+  const yaml::SourceMap lines = yaml::read_file(o.case_file, message);
+  const sim::Case core = read_core(o.case_file, message, lines);
+  if (options.run_folder.empty()) options.run_folder = fs::path(o.case_file).stem().string() + ".calibration";
+  return print_wave(core, options, solver);
+}
+
 /// As the service makes it, so that equal cases have equal digests.
 std::string digest_of(const Loaded& loaded) {
   jobs::Files files;
-  if (const std::string& name = loaded.core.hull.offsets_file; !name.empty()) {
+  for (const std::string& name : std::set<std::string>{loaded.core.hull.offsets_file, loaded.core.wave.file}) {
+    if (name.empty()) continue;
     std::ifstream in(fs::path(loaded.core.folder) / name, std::ios::binary);
     v1::CaseFile& file = *files.Add();
     file.set_name(name);
@@ -105,29 +118,6 @@ std::string digest_of(const Loaded& loaded) {
   }
   return jobs::sha256_hex(jobs::encode_spec(loaded.message, files));
 }
-
-/// Turns SIGTERM and SIGINT into a stop request. One more SIGINT ends the process.
-class SignalStop {
- public:
-  SignalStop() : thread_([this](std::stop_token end) { wait(end); }) {}
-  std::stop_token token() const { return stop_.get_token(); }
-  bool stopped() const { return stop_.stop_requested(); }
-
- private:
-  void wait(const std::stop_token& end) {
-    sigset_t set;
-    sigemptyset(&set);
-    for (const int s : {SIGTERM, SIGINT}) sigaddset(&set, s);
-    const timespec tick{0, 200'000'000};
-    while (!end.stop_requested()) {
-      if (sigtimedwait(&set, nullptr, &tick) < 0) continue;
-      if (stop_.stop_requested()) ::_exit(130);
-      stop_.request_stop();
-    }
-  }
-  std::stop_source stop_;
-  std::jthread thread_;
-};
 
 void show_progress(const sim::Progress& p, const FileObserver& o, bool tty) {
   static auto last = std::chrono::steady_clock::time_point{};
@@ -202,6 +192,44 @@ int run(Options o, const jobs::Solver& solver) {
   return 1;
 }
 
+/// An option that stays absent in the message unless it is given.
+template <class Message, class Value>
+void add_field(CLI::App* sub, const std::string& name, Message& message, void (Message::*set)(Value), const std::string& text) {
+  sub->add_option_function<Value>(name, [&message, set](const Value& value) { (message.*set)(value); }, text);
+}
+
+CLI::App* add_decay(CLI::App& app, ReportOptions& o) {
+  CLI::App* sub = app.add_subcommand("decay", "periods, peaks and damping of free decays");
+  sub->add_option("FILES", o.files, "history.csv or run folders")->required();
+  sub->add_option_function<std::string>("--channel", [&o](const std::string& name) { o.decay.set_channel(name); }, "default: roll");
+  add_field<v1::DecayOptions, double>(sub, "--from", o.decay, &v1::DecayOptions::set_from_s, "begin at this time [s]; default: the release");
+  add_field<v1::DecayOptions, double>(sub, "--until", o.decay, &v1::DecayOptions::set_until_s, "end at this time [s]");
+  add_field<v1::DecayOptions, double>(sub, "--smallest-peak", o.decay, &v1::DecayOptions::set_smallest_peak, "part of the first peak; default 0.02");
+  sub->add_flag("--json", o.json, "one JSON object a file");
+  return sub;
+}
+
+CLI::App* add_wave(CLI::App& app, Options& o, WaveOptions& w) {
+  CLI::App* sub = app.add_subcommand("wave", "the wave that a case asks for; with --calibrate what arrives of it in the empty tank");
+  sub->add_option("CASE", o.case_file, "case file (YAML)")->required();
+  sub->add_flag("--calibrate", w.calibrate, "run the tank without the hull and measure at the ship's place");
+  sub->add_option("--duration", w.duration, "seconds to look at; default: 20 periods")->check(CLI::PositiveNumber);
+  sub->add_option("--run", w.run_folder, "folder of that run; default: name of the case + .calibration");
+  sub->add_option("--out", w.folder, "folder for wave.png and its data");
+  sub->add_option("--threads", w.threads, "default: all cores")->check(CLI::Range(1, 256));
+  sub->add_flag("--json", w.json, "print one JSON object instead of text");
+  return sub;
+}
+
+CLI::App* add_rao(CLI::App& app, ReportOptions& o) {
+  CLI::App* sub = app.add_subcommand("rao", "response amplitudes of runs in regular waves");
+  sub->add_option("FILES", o.files, "run folders, each with its case.yaml")->required();
+  add_field<v1::RaoOptions, int>(sub, "--periods", o.rao, &v1::RaoOptions::set_period_count, "last whole periods to fit; default 5");
+  sub->add_option("--out", o.folder, "folder for rao.png and its data");
+  sub->add_flag("--json", o.json, "print one JSON object instead of text");
+  return sub;
+}
+
 }  // namespace
 
 void block_stop_signals() {
@@ -237,17 +265,25 @@ int run_offline(int argc, char** argv, const jobs::Solver& solver) {
   of_hull->add_option("--amidships", hull_options.amidships, "x of amidships in the file's unit");
   of_hull->add_option("--draft", hull_options.draft, "of a file [m]; a case has its own")->check(CLI::NonNegativeNumber);
   of_hull->add_option("--kg", hull_options.kg, "of a file, with --draft: height of the centre of gravity [m]");
+  WaveOptions wave_options;
+  CLI::App* of_wave = add_wave(app, o, wave_options);
+  ReportOptions report_options;
+  CLI::App* of_decay = add_decay(app, report_options);
+  CLI::App* of_rao = add_rao(app, report_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  if (o.case_file.empty()) {
+  if (o.case_file.empty() && !of_decay->parsed() && !of_rao->parsed()) {
     std::fprintf(stderr, "seaway-run: which case? Try --help\n");
     return 2;
   }
   try {
+    if (of_decay->parsed()) return print_decay(report_options);
+    if (of_rao->parsed()) return print_rao(report_options);
     if (of_hull->parsed()) return hull(o, hull_options);
+    if (of_wave->parsed()) return wave(o, wave_options, solver);
     return checking->parsed() ? check(o, solver) : run(o, solver);
   } catch (const yaml::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -25,6 +25,8 @@ void add_watch(CLI::App& app, Common& common);      // watch
 void add_jobs(CLI::App& app, Common& common);       // list, show, cancel, delete
 void add_job_life(CLI::App& app, Common& common);   // hold, release, kill, retry, label, note, priority, events, server
 void add_results(CLI::App& app, Common& common);    // history, stages, artifacts, download
+void add_reports(CLI::App& app, Common& common);    // decay, rao
+void add_sweep(CLI::App& app, Common& common);      // sweep, sweeps
 void add_plot(CLI::App& app, Common& common);       // plot
 
 /// First line of the file. Throws ClientError.

@@ -35,6 +35,10 @@ std::vector<Neighbour<Dim>> neighbours(const HullWindow<Dim>& window) {
   return out;
 }
 
+/// A fuller or emptier cell holds no surface that could go on through the wall: its plane would turn a trace of
+/// air in a submerged cell into a hull full of it.
+constexpr double least_surface = 0.01;
+
 /// Gradient of the distance at a cell by central differences.
 template <int Dim>
 Vec<Dim> distance_gradient(const HullWindow<Dim>& window, const std::vector<double>& phi, int at) {
@@ -68,11 +72,15 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
   const auto around = neighbours<Dim>(window);
   // 0: known; 1, 2, ...: layers; -1: not reached.
   layer_.assign(window.size(), -1);
+  level_.assign(window.size(), 0);
+  std::vector<int> level_found;
   IVec<Dim> inner_upper = window.n();
   for (int& u : inner_upper) u -= 1;
   window.for_cells([&](const IVec<Dim>& i) {
     const auto at = static_cast<std::size_t>(window.at(i));
-    if (theta[at] >= 0.5) layer_[at] = 0;
+    if (theta[at] < 0.5) return;
+    layer_[at] = 0;
+    level_[at] = 1;
   });
   // A surface that lies exactly on a grid line leaves no mixed cell: the face between water and air is it.
   const auto sharp_plane = [&](int at, Plane<Dim>& plane) {
@@ -94,6 +102,7 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
   for (int layer = 1; layer <= extension_layers; ++layer) {
     list_.clear();
     next_.clear();
+    level_found.clear();
     for_box<Dim>(filled<Dim>(1), inner_upper, [&](const IVec<Dim>& i) {
       const int at = window.at(i);
       if (layer_[static_cast<std::size_t>(at)] != -1 || phi[static_cast<std::size_t>(at)] < -(layer + 2) * window.h().maxCoeff())
@@ -109,20 +118,24 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
           const double c = vof[static_cast<std::size_t>(from)];
           means += c;
           mean_weight += 1;
-          if (n.at[Dim - 1] == 0) {
+          if (n.at[Dim - 1] == 0 && level_[static_cast<std::size_t>(from)]) {
             level += c;
             level_weight += 1;
           }
+          if (layer > 1) continue;
+          const double weight = n.distance == 1 ? 1.0 : 0.5;
           bool inside = true;  // the plane needs the neighbour's own 3^Dim stencil
           for (int a = 0; a < Dim; ++a)
             inside = inside && i[a] + n.at[a] >= 1 && i[a] + n.at[a] < window.n()[a] - 1;
-          if (layer > 1 || !inside) continue;
+          const bool surface = std::min(c, 1 - c) > least_surface;
           Plane<Dim> plane;
-          if (is_mixed(c)) plane = interface_plane<Dim>(window, vof, spaces, from);
-          if (is_mixed(c) || sharp_plane(from, plane)) {
+          if (inside && surface) plane = interface_plane<Dim>(window, vof, spaces, from);
+          if (inside && (surface || sharp_plane(from, plane))) {
             for (int a = 0; a < Dim; ++a) plane.d += n.at[a] * plane.normal[static_cast<std::size_t>(a)];
-            const double weight = n.distance == 1 ? 1.0 : 0.5;
             planes += weight * plane_fraction<Dim>(plane.normal, plane.d);
+            plane_weight += weight;
+          } else if (n.at[Dim - 1] == 0) {
+            planes += weight * c;
             plane_weight += weight;
           }
         }
@@ -131,26 +144,25 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
       if (mean_weight == 0) return;
       list_.push_back(at);
       double value = means / mean_weight;
-      if (plane_weight > 0) {
-        value = planes / plane_weight;
-      } else if (layer > 1 && level_weight > 0) {
-        value = level / level_weight;
-      } else if (layer == 1 && level_weight == 0 && value > 0.5) {
-        front_.push_back(at);
-      }
+      if (plane_weight > 0) value = planes / plane_weight;
+      else if (layer > 1 && level_weight > 0) value = level / level_weight;
       next_.push_back(value);
+      if (plane_weight > 0 || level_weight > 0) level_found.push_back(at);
+      else if (layer == 1 && value > 0.5) front_.push_back(at);
     });
     for (std::size_t k = 0; k < list_.size(); ++k) {
       vof[static_cast<std::size_t>(list_[k])] = next_[k];
       layer_[static_cast<std::size_t>(list_[k])] = static_cast<signed char>(layer);
     }
+    for (const int at : level_found) level_[static_cast<std::size_t>(at)] = 1;
   }
   level_off(mask.window(), vof);
 }
 
 /// Over water under a flat bottom or counter the extension found water, however high the cell lies. If the surface
-/// is near, it has to go on level from the hull's sides instead: values are carried along the rows of the cells in
-/// `front_` and what lies around them, and the lower of the two counts.
+/// is near, it has to go on level from the hull's sides instead: the values of `level_` cells are carried along the
+/// rows of the cells in `front_` and what lies around them, and the lower of the two counts. Cells that were
+/// reached from above or below are no sources: under a counter the air over the deck would get into the water.
 template <int Dim>
 void HullExtension<Dim>::level_off(const HullWindow<Dim>& window, std::vector<double>& vof) {
   if (front_.empty()) return;
@@ -161,7 +173,8 @@ void HullExtension<Dim>::level_off(const HullWindow<Dim>& window, std::vector<do
   for (int& u : upper) --u;
   for_box<Dim>(filled<Dim>(1), upper, [&](const IVec<Dim>& i) {
     const int at = window.at(i);
-    if (layer_[static_cast<std::size_t>(at)] > 1 && vof[static_cast<std::size_t>(at)] > 0.5) open.push_back(at);
+    const auto cell = static_cast<std::size_t>(at);
+    if (layer_[cell] > 1 && !level_[cell] && vof[cell] > 0.5) open.push_back(at);
   });
   std::vector<double> before;
   before.reserve(open.size());
@@ -181,7 +194,7 @@ void HullExtension<Dim>::level_off(const HullWindow<Dim>& window, std::vector<do
       for (int a = 0; a + 1 < Dim; ++a)
         for (const int step : {-window.stride(a), window.stride(a)}) {
           const auto from = static_cast<std::size_t>(open[k] + step);
-          if (layer_[from] < 0 || layer_[from] == waiting) continue;
+          if (layer_[from] < 0 || layer_[from] == waiting || !level_[from]) continue;
           sum += vof[from];
           ++count;
         }
@@ -194,6 +207,7 @@ void HullExtension<Dim>::level_off(const HullWindow<Dim>& window, std::vector<do
     for (std::size_t k = 0; k < list_.size(); ++k) {
       vof[static_cast<std::size_t>(list_[k])] = next_[k];
       layer_[static_cast<std::size_t>(list_[k])] = 1;
+      level_[static_cast<std::size_t>(list_[k])] = 1;
     }
   }
 }

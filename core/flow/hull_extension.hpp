@@ -35,6 +35,7 @@ class HullExtension {
   void level_off(const HullWindow<Dim>& window, std::vector<double>& vof);
 
   std::vector<signed char> layer_, face_space_;
+  std::vector<char> level_;  ///< cells that know the water at their own height: in the fluid, or reached along a row
   std::vector<double> next_;
   std::vector<int> front_, list_;
 };

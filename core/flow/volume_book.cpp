@@ -21,6 +21,13 @@ constexpr double smallest_taker = 0.5;
 /// A space with less water than so many cells is dry.
 constexpr double least_wet_cells = 10;
 
+/// What of a wanted change a volume fraction takes at most. A cell that is all but full or empty takes next to
+/// nothing: it would become air under water, which rises along the hull as a jet.
+double most_taken(double fraction, double wanted) {
+  const double most = fraction * (1 - fraction);
+  return std::clamp(wanted, -most, most);
+}
+
 template <int Dim>
 bool on_edge(const HullWindow<Dim>& window, const IVec<Dim>& i, int margin) {
   for (int a = 0; a < Dim; ++a)
@@ -179,7 +186,7 @@ double VolumeBook<Dim>::give(const HullMask<Dim>& mask, const IVec<Dim>& i, int 
   double left = defect;
   for (const auto& [at, weight] : takers) {
     const double before = vof[at];
-    vof[at] = std::clamp(before + defect * weight / weights / volume, 0.0, 1.0);
+    vof[at] = before + most_taken(before, defect * weight / weights / volume);
     left -= (vof[at] - before) * volume;
   }
   return left;
@@ -211,7 +218,7 @@ void VolumeBook<Dim>::release(const HullMask<Dim>& mask, std::vector<double>& vo
     double left = amount;
     for (const Taker& t : takers) {
       const double before = vof[t.at];
-      vof[t.at] = std::clamp(before + amount * t.weight / weights / volume, 0.0, 1.0);
+      vof[t.at] = before + most_taken(before, amount * t.weight / weights / volume);
       left -= (vof[t.at] - before) * volume;
     }
     owed -= amount - left;

@@ -97,6 +97,7 @@ template <int Dim>
 void CascadeRun<Dim>::write_checkpoint() {
   const auto& s = *simulation_;
   simulation_->clock().charge("output");
+  const auto began = Clock::now();
   io::CheckpointWriter writer;
   json meta;
   meta["code_version"] = code_version();
@@ -144,7 +145,7 @@ void CascadeRun<Dim>::write_checkpoint() {
   const std::string path = fmt::format("{}/{}{:010d}{}.ck", options_.folder, prefix, sequence_, stage_.finished ? "e" : "a");
   writer.write(path, options_.case_digest);
   last_checkpoint_ = Clock::now();
-  observer_.on_checkpoint(path, sequence_);
+  observer_.on_checkpoint(path, sequence_, std::chrono::duration<double>(last_checkpoint_ - began).count());
   prune_checkpoints();
   simulation_->clock().charge("checkpoint");
 }

@@ -56,17 +56,33 @@ struct Tank {
 
 /// Waves are functions of (x, t). `none` is calm water.
 struct Wave {
-  enum class Kind { none, regular };
-  enum class Theory { stream_function, airy };
+  enum class Kind { none, regular, irregular, focused, time_series };
+  enum class Theory { stream_function, airy, stokes_5 };
   enum class MeanFlow { zero_transport, zero_eulerian };  ///< closed tanks need zero_transport
   Kind kind = Kind::none;
   Theory theory = Theory::stream_function;
   MeanFlow mean_flow = MeanFlow::zero_transport;
-  double height = 0;          ///< crest to trough [m]
-  double period = 0;          ///< [s]; exactly one of period and length is > 0
-  double length = 0;          ///< [m]
+  double height = 0;          ///< regular: crest to trough [m]
+  double period = 0;          ///< regular: [s]; exactly one of period and length is > 0
+  double length = 0;          ///< regular: [m]
   double heading = pi / 2;    ///< direction the wave goes to, from +x towards port [rad]
-  double phase = 0;           ///< phase of the crest at the origin at t = 0 [rad]
+  double phase = 0;           ///< regular: phase of the crest at the origin at t = 0 [rad]
+  /// irregular, focused: the spectrum and the part of it that is made (core/waves/spectrum.hpp).
+  struct Spectrum {
+    enum class Shape { jonswap, bretschneider, ittc, pierson_moskowitz };
+    Shape shape = Shape::jonswap;
+    double peak_period = 0;         ///< [s]
+    double peak_enhancement = 3.3;  ///< jonswap
+    int components = 100;
+    double lower_cutoff = 0.5, upper_cutoff = 2.5;  ///< [1 / peak period]
+  } spectrum;
+  double significant_height = 0;    ///< irregular, but for pierson_moskowitz [m]
+  std::uint64_t seed = 1;           ///< irregular
+  double focus_amplitude = 0;       ///< focused: crest (> 0) or trough (< 0) of the linear sum [m]
+  double time = 0;                  ///< focused: of the focus; time_series: of the file's first line [s]
+  double x = 0, y = 0;              ///< place of the focus or of the measurement [m]
+  std::string file;                 ///< time_series
+  double lower_frequency = 0, upper_frequency = 0;  ///< time_series [Hz]
 };
 
 /// Relaxation towards the wave (or towards rest) next to the tank's ends.

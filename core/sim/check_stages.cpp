@@ -49,11 +49,11 @@ void check_mesh(CheckState& s, std::size_t i) {
       f.error(at + ".within_m", fmt::format("{} m; it must be above 0", band.within),
               "leave it out: everywhere");
     if (f.positive(at + ".half_height_m", band.half_height) && s.wave_ok &&
-        band.half_height < 0.5 * s.c.wave.height)
+        band.half_height < 0.5 * s.wave_height)
       f.warning(at + ".half_height_m",
                 fmt::format("{} m is less than half the wave height, {} m: crests leave "
                             "the band",
-                            band.half_height, 0.5 * s.c.wave.height),
+                            band.half_height, 0.5 * s.wave_height),
                 "give at least one wave height");
   }
   for (std::size_t k = 0; k < mesh.boxes.size(); ++k) {
@@ -149,14 +149,14 @@ double surface_cell(const Case& c, const Stage& stage) {
 void check_wave_resolution(CheckState& s) {
   for (std::size_t i = 0; i < s.c.stages.size(); ++i) {
     const double cell = surface_cell(s.c, s.c.stages[i]);
-    const double cells = s.c.wave.height / cell;
+    const double cells = s.wave_height / cell;
     if (cells >= cells_per_wave_height * (1 - 1e-6)) continue;
     const std::string field = stage_field(i) + ".mesh.surface";
     const std::string message =
         fmt::format("{:.3g} cells of {:.4g} m per wave height of {} m; {} are needed", cells, cell,
-                    s.c.wave.height, cells_per_wave_height);
+                    s.wave_height, cells_per_wave_height);
     const std::string hint = fmt::format("give a surface band with cell_m of {:.3g} or less",
-                                         s.c.wave.height / cells_per_wave_height);
+                                         s.wave_height / cells_per_wave_height);
     if (i + 1 == s.c.stages.size())
       s.findings.error(field, message, hint);
     else

@@ -48,7 +48,9 @@ struct CheckState {
   CaseReport& report;
   bool tank_ok = false, fluids_ok = false, wave_ok = false, base_cell_ok = false;
   int wave_axis = 1;                         ///< the tank's axis along which waves go
-  double wave_length = 0, wave_period = 0;   ///< 0: calm water, or unknown
+  double wave_length = 0, wave_period = 0;   ///< of the wave or of the sea's peak; 0: calm water, or unknown
+  double wave_height = 0;                    ///< that cells have to resolve: H, Hs or twice the focused amplitude [m]
+  double wave_crest = 0, wave_trough = 0;    ///< how high and deep it is expected to be, both > 0 [m]
   std::optional<hull::Section> section{};    ///< 2-D: if the hull could be built
   std::optional<hull::Ship> ship{};          ///< 3-D: if the hull could be built
   std::optional<HullPlace<3>> place{};       ///< afloat at the start; in 2-D all x are 0
@@ -63,7 +65,7 @@ struct CheckState {
 const char* to_string(Dof dof);
 
 void check_fluids_and_tank(CheckState& s);       // check_tank.cpp
-void check_wave_and_zones(CheckState& s);        // check_tank.cpp
+void check_wave_and_zones(CheckState& s);        // check_wave.cpp
 void check_settings_and_outputs(CheckState& s);  // check_tank.cpp
 void check_turbulence(CheckState& s);            // check_turbulence.cpp: model, walls of hull and tank
 void check_hull(CheckState& s);                  // check_hull.cpp: shape, compartments

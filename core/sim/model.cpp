@@ -5,30 +5,12 @@
 #include "core/base/error.hpp"
 #include "core/sim/build_hull.hpp"
 #include "core/sim/build_ship.hpp"
+#include "core/sim/build_wave.hpp"
 #include "core/sim/mesh_regions.hpp"
 #include "core/sim/simulation.hpp"
 
 namespace seaway::sim {
 namespace {
-
-std::shared_ptr<const waves::WaveField> wave_of(const Case& c) {
-  if (c.wave.kind == Wave::Kind::none) return nullptr;
-  waves::RegularWaveSpec spec;
-  spec.theory = c.wave.theory == Wave::Theory::airy ? waves::RegularWaveSpec::Theory::airy
-                                                    : waves::RegularWaveSpec::Theory::stream_function;
-  spec.mean_flow = c.wave.mean_flow == Wave::MeanFlow::zero_eulerian
-                       ? waves::RegularWaveSpec::MeanFlow::zero_eulerian
-                       : waves::RegularWaveSpec::MeanFlow::zero_transport;
-  spec.height = c.wave.height;
-  spec.period = c.wave.period;
-  spec.length = c.wave.length;
-  spec.depth = -c.tank.lower.z();
-  spec.heading = c.wave.heading;
-  spec.phase = c.wave.phase;
-  spec.gravity = c.fluids.gravity;
-  spec.rho = c.fluids.rho_water;
-  return waves::make_wave(spec);
-}
 
 /// Values of k and epsilon at the start and where waves come in.
 flow::TurbulenceSpec turbulence_of(const Case& c, const waves::WaveField* wave) {
@@ -84,7 +66,7 @@ Model<Dim> make_model(const Case& c) {
   }
   m.wall_model = static_cast<flow::WallModel>(c.turbulence.walls);
   if (c.tank.open_top) m.boundaries.kind[Dim - 1][1] = field::BoundaryKind::open;
-  m.wave = wave_of(c);
+  m.wave = build_wave(c);
   m.turbulence = turbulence_of(c, m.wave.get());
   Periods periods;
   if (m.wave) periods.add(m.wave->period());

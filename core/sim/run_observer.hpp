@@ -98,7 +98,8 @@ class RunObserver {
   virtual void on_stage_finished(const StageResult&) {}
   /// A checkpoint file is complete on disk (written aside, synced, renamed). Samples up to `sequence`
   /// precede it: an observer must have made them durable before it records the checkpoint.
-  virtual void on_checkpoint(const std::string& /*path*/, std::int64_t /*sequence*/) {}
+  /// `write_s`: wall time that it took to write [s].
+  virtual void on_checkpoint(const std::string& /*path*/, std::int64_t /*sequence*/, double /*write_s*/) {}
   /// A result file was written: snapshot of the free surface and the hull, report.
   virtual void on_artifact(const std::string& /*name*/, const std::string& /*path*/,
                            const std::string& /*media_type*/) {}

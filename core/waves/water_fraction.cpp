@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace seaway::waves {
@@ -39,13 +40,12 @@ double sum_2d(const WaveField& wave, const Footprint<2>& box, double t, int n) {
 
 double sum_3d(const WaveField& wave, const Footprint<3>& box, double t, int n) {
   constexpr int max_n = 8;
-  std::array<std::array<double, 2 * max_n + 1>, 2 * max_n + 1> eta;
-  for (int j = 0; j <= 2 * n; ++j) {
-    for (int i = 0; i <= 2 * n; ++i) {
-      eta[j][i] = wave.elevation(box.lower.x() + box.size.x() * i / (2 * n),
-                                 box.lower.y() + box.size.y() * j / (2 * n), t);
-    }
-  }
+  std::array<double, (2 * max_n + 1) * (2 * max_n + 1)> points;
+  const int m = 2 * n + 1;
+  wave.elevation_grid({box.lower.x(), box.lower.y(), box.size.x() / (2 * n), box.size.y() / (2 * n), m, m}, t,
+                      std::span(points).first(static_cast<std::size_t>(m * m)));
+  std::array<const double*, 2 * max_n + 1> eta{};
+  for (int j = 0; j < m; ++j) eta[static_cast<std::size_t>(j)] = points.data() + j * m;
   double sum = 0;
   for (int j = 0; j < 2 * n; j += 2) {
     for (int i = 0; i < 2 * n; i += 2) {

@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/waves/airy.hpp"
 #include "core/waves/regular_wave.hpp"
+#include "core/waves/stokes.hpp"
 #include "core/waves/stream_function.hpp"
 
 namespace seaway::waves {
@@ -43,6 +44,12 @@ void RegularWave::column_velocity(double x, double y, double t, std::span<const 
   }
 }
 
+void WaveField::elevation_grid(const Grid& grid, double t, std::span<double> out) const {
+  std::size_t at = 0;
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i) out[at++] = elevation(grid.x0 + i * grid.dx, grid.y0 + j * grid.dy, t);
+}
+
 double highest_wave(double length, double depth) {
   const double r = length / depth;  // [fenton1990]
   return depth * (0.141063 * r + 0.0095721 * r * r + 0.0077829 * r * r * r) /
@@ -67,6 +74,8 @@ std::unique_ptr<const WaveField> make_wave(const RegularWaveSpec& spec) {
   switch (spec.theory) {
     case RegularWaveSpec::Theory::airy:
       return make_airy_wave(spec);
+    case RegularWaveSpec::Theory::stokes_5:
+      return make_stokes_wave(spec);
     case RegularWaveSpec::Theory::stream_function:
       return make_stream_function_wave(spec);
   }

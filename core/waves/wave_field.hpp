@@ -29,6 +29,13 @@ class WaveField {
   /// Height of the surface above z = 0 [m].
   virtual double elevation(double x, double y, double t) const = 0;
 
+  /// The same at all points of a grid, x fastest; out has nx ny entries.
+  struct Grid {
+    double x0, y0, dx, dy;
+    int nx, ny;
+  };
+  virtual void elevation_grid(const Grid& grid, double t, std::span<double> out) const;
+
   /// Water velocity [m/s] at any point. Below the crest level it is the theory's own field (also
   /// above the surface in a trough: the series is continued). Above the crest level the stream
   /// function of each mode goes on as (1 + a s) exp(-j k s), s = height over the crest: velocity
@@ -72,7 +79,7 @@ class WaveField {
 
 /// A regular wave as the user describes it. Exactly one of period and length is > 0.
 struct RegularWaveSpec {
-  enum class Theory { stream_function, airy };
+  enum class Theory { stream_function, airy, stokes_5 };
   /// What is at rest in the mean: the water as a whole (Stokes' second definition; a closed tank,
   /// where the crests' forward transport must flow back below) or a fixed probe under the trough
   /// (the first).

@@ -51,27 +51,6 @@ void read_tank(const v1::Case& message, int dim, sim::Tank& tank, Checker& check
   read_no_slip(m, dim, tank, check);
 }
 
-void read_regular(const v1::RegularWave& m, int dim, sim::Wave& wave, Checker& check) {
-  const std::string path = "wave.regular.";
-  wave.kind = sim::Wave::Kind::regular;
-  wave.height = check.number(path + "height_m", m.height_m(), positive);
-  if (m.has_period_s() == m.has_length_m())
-    check.problem("wave.regular", m.has_period_s() ? "both period_s and length_m are given" : "has no period",
-                  "give exactly one of period_s and length_m");
-  if (m.has_period_s()) wave.period = check.number(path + "period_s", m.period_s(), positive);
-  if (m.has_length_m()) wave.length = check.number(path + "length_m", m.length_m(), positive);
-  if (m.theory() == v1::RegularWave::THEORY_AIRY) wave.theory = sim::Wave::Theory::airy;
-  if (m.mean_flow() == v1::RegularWave::MEAN_FLOW_ZERO_EULERIAN)
-    wave.mean_flow = sim::Wave::MeanFlow::zero_eulerian;
-  if (m.has_heading_deg()) {
-    wave.heading = check.number(path + "heading_deg", m.heading_deg(), {-360, 360}) * degree;
-    if (dim == 2 && std::abs(m.heading_deg()) != 90)
-      check.problem(path + "heading_deg", fmt::format("{} is not possible in a section", m.heading_deg()),
-                    "write 90 (towards port) or -90 (towards starboard)");
-  }
-  if (m.has_phase_deg()) wave.phase = check.number(path + "phase_deg", m.phase_deg(), {-360, 360}) * degree;
-}
-
 void read_zones(const v1::Zones& m, sim::Zones& zones, Checker& check) {
   if (m.has_generation_length_m())
     zones.generation_length = check.number("zones.generation_length_m", m.generation_length_m(), not_negative);
@@ -151,8 +130,7 @@ sim::Case to_core(const v1::Case& m) {
   sim::Case c;
   check.finite(m);
   if (m.title().empty()) check.problem("title", "is missing", "say in a few words what the case is");
-  if (m.title().size() > 200)
-    check.problem("title", fmt::format("{} bytes", m.title().size()), "must be at most 200");
+  check.line("title", m.title(), 200);
   c.title = m.title();
   if (m.dimension() != 2 && m.dimension() != 3)
     check.problem("dimension", m.dimension() == 0 ? "is missing" : fmt::format("{} is not allowed", m.dimension()),
@@ -168,11 +146,7 @@ sim::Case to_core(const v1::Case& m) {
     if (c.dim == 2) check.problem("mesh.stretch_x", "x does not exist in 2-D", "remove it");
     c.stretch_x = check.number("mesh.stretch_x", m.mesh().stretch_x(), positive);
   }
-  if (m.has_wave()) {
-    if (m.wave().has_regular()) read_regular(m.wave().regular(), c.dim, c.wave, check);
-    if (m.wave().kind_case() == v1::Wave::KIND_NOT_SET)
-      check.problem("wave", "says nothing", "write calm: {} or regular: with height_m and period_s");
-  }
+  if (m.has_wave()) read_wave(m.wave(), c.dim, c.wave, check);
   read_zones(m.zones(), c.zones, check);
   if (m.has_turbulence()) read_turbulence(m.turbulence(), c.turbulence, check);
   if (m.has_hull()) read_hull(m.hull(), c.dim, c.hull, check);

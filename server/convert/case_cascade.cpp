@@ -86,7 +86,7 @@ void read_cascade(const v1::Cascade& m, int dim, std::vector<sim::Stage>& stages
     const std::string path = fmt::format("cascade.stages[{}]", i);
     sim::Stage to;
     to.name = from.name().empty() ? fmt::format("{}", i + 1) : from.name();
-    if (from.name().size() > 40) check.problem(path + ".name", "is too long", "at most 40 bytes");
+    check.line(path + ".name", from.name(), 40);
     read_mesh(from.mesh(), path + ".mesh", dim, to.mesh, check);
     read_end(from.end(), path + ".end", to.end, check);
     if (i == 0 && from.has_mapping())

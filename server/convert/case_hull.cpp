@@ -149,6 +149,7 @@ void read_hull(const v1::Hull& m, int dim, sim::Hull& hull, Checker& check) {
       const v1::Opening& hole = from.openings(k);
       sim::Opening opening;
       opening.name = hole.name();
+      check.line(fmt::format("{}.openings[{}].name", path, k), hole.name(), 40);
       read_box(hole.x_m(), hole.y_m(), hole.z_m(), fmt::format("{}.openings[{}]", path, k), dim, opening.lower,
                opening.upper, check);
       to.openings.push_back(std::move(opening));
@@ -165,10 +166,8 @@ void read_prescribed(const v1::Body& m, int dim, const std::set<int>& free, sim:
     const v1::PrescribedMotion& from = m.prescribed(i);
     const std::string path = fmt::format("body.prescribed[{}]", i);
     sim::Body::Prescribed to;
-    if (from.dof() == v1::DOF_UNSPECIFIED) {
-      check.problem(path + ".dof", "is missing", "name the motion, for example roll");
-      continue;
-    }
+    if (from.dof() == v1::DOF_UNSPECIFIED) check.problem(path + ".dof", "is missing", "name the motion, for example roll");
+    if (from.dof() == v1::DOF_UNSPECIFIED || !v1::Dof_IsValid(from.dof())) continue;
     to.dof = static_cast<sim::Dof>(from.dof() - 1);
     if (!dof_exists(to.dof, dim))
       check.problem(path + ".dof", "does not exist in 2-D", "sway, heave and roll do");
@@ -239,10 +238,8 @@ void read_body(const v1::Case& message, sim::Body& body, Checker& check) {
   std::set<int> free;
   for (int i = 0; i < m.free_size(); ++i) {
     const std::string path = fmt::format("body.free[{}]", i);
-    if (m.free(i) == v1::DOF_UNSPECIFIED) {
-      check.problem(path, "names no motion", "for example roll");
-      continue;
-    }
+    if (m.free(i) == v1::DOF_UNSPECIFIED) check.problem(path, "names no motion", "for example roll");
+    if (m.free(i) == v1::DOF_UNSPECIFIED || !v1::Dof_IsValid(m.free(i))) continue;  // Checker::finite has told the unknown ones
     const auto dof = static_cast<sim::Dof>(m.free(i) - 1);
     if (!dof_exists(dof, dim)) check.problem(path, "does not exist in 2-D", "sway, heave and roll do");
     if (!free.insert(m.free(i)).second) check.problem(path, "is given twice", "remove it");

@@ -193,20 +193,7 @@ v1::Case to_proto(const sim::Case& c) {
   if (c.turbulence.model != sim::Turbulence::Model::none) put_turbulence(c.turbulence, *m.mutable_turbulence());
   m.mutable_mesh()->set_base_cell_m(c.base_cell);
   if (c.dim == 3) m.mutable_mesh()->set_stretch_x(c.stretch_x);
-  if (c.wave.kind == sim::Wave::Kind::none) {
-    m.mutable_wave()->mutable_calm();
-  } else {
-    v1::RegularWave& wave = *m.mutable_wave()->mutable_regular();
-    wave.set_height_m(c.wave.height);
-    if (c.wave.period > 0)
-      wave.set_period_s(c.wave.period);
-    else
-      wave.set_length_m(c.wave.length);
-    wave.set_theory(static_cast<v1::RegularWave::Theory>(static_cast<int>(c.wave.theory) + 1));
-    wave.set_mean_flow(static_cast<v1::RegularWave::MeanFlow>(static_cast<int>(c.wave.mean_flow) + 1));
-    wave.set_heading_deg(degrees(c.wave.heading));
-    wave.set_phase_deg(degrees(c.wave.phase));
-  }
+  put_wave(c.wave, *m.mutable_wave());
   m.mutable_zones()->set_generation_length_m(c.zones.generation_length);
   m.mutable_zones()->set_absorption_length_m(c.zones.absorption_length);
   m.mutable_zones()->set_rate_per_s(c.zones.rate);

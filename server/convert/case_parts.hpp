@@ -19,8 +19,10 @@ void read_box(const Extent& x, const Extent& y, const Extent& z, const std::stri
               Vec3& upper, Checker& check);
 
 Vec3 read_vector(const v1::Vector& v);
+void put_wave(const sim::Wave& wave, v1::Wave& message);
 bool dof_exists(sim::Dof dof, int dim);
 
+void read_wave(const v1::Wave& message, int dim, sim::Wave& wave, Checker& check);
 void read_hull(const v1::Hull& message, int dim, sim::Hull& hull, Checker& check);
 void read_body(const v1::Case& message, sim::Body& body, Checker& check);
 void read_turbulence(const v1::Turbulence& message, sim::Turbulence& turbulence, Checker& check);

@@ -45,6 +45,12 @@ void Checker::name(const std::string& field, const std::string& value) {
             "1 to 40 letters, digits, _ and -");
 }
 
+void Checker::line(const std::string& field, const std::string& value, std::size_t most) {
+  if (value.size() > most) problem(field, fmt::format("{} bytes", value.size()), fmt::format("must be at most {}", most));
+  if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }))
+    problem(field, "has control characters", "write one line of text");
+}
+
 void Checker::entries(const std::string& field, int n, int lower, int upper) {
   if (n < lower || n > upper)
     problem(field, fmt::format("{} entries", n), fmt::format("must be {} to {}", lower, upper));

@@ -31,6 +31,8 @@ class Checker {
   int count(const std::string& field, int value, int lower, int upper);
   /// A name that becomes part of channel and file names.
   void name(const std::string& field, const std::string& value);
+  /// One line of at most `most` bytes that may be shown on a terminal; may be empty.
+  void line(const std::string& field, const std::string& value, std::size_t most);
   void entries(const std::string& field, int n, int lower, int upper);
   /// Every number of the message and of those inside it is finite, every enumerator known.
   void finite(const google::protobuf::Message& message, const std::string& path = "");

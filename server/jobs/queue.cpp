@@ -2,62 +2,19 @@
 #include "server/jobs/queue.hpp"
 
 #include <algorithm>
-#include <array>
 #include <random>
 
 #include "core/base/error.hpp"
 #include "core/base/version.hpp"
 #include "server/convert/input_error.hpp"
 #include "server/convert/result.hpp"
+#include "server/jobs/requests.hpp"
 
 namespace seaway::jobs {
 namespace {
 
 using store::Reason;
 using store::State;
-
-[[noreturn]] void refuse(const std::string& reason, const std::string& field, const std::string& message,
-                         const std::string& hint) {
-  throw convert::InputError(reason, {{sim::Diagnostic::Severity::error, field, message, hint}});
-}
-
-bool is_uuid(const std::string& text) {
-  if (text.size() != 36) return false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool dash = i == 8 || i == 13 || i == 18 || i == 23;
-    const char c = text[i];
-    const bool hex = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
-    if (dash ? c != '-' : !hex) return false;
-  }
-  return true;
-}
-
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
-bool is_text(const std::string& text) {
-  return std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
-}
-
-bool is_label_key(const std::string& key) {
-  return !key.empty() && key.size() <= 63 && std::all_of(key.begin(), key.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
-  });
-}
-
-/// What a user may hang on a job.
-void check_traits(int priority, const store::Labels& labels, const std::string& note) {
-  if (priority < -100 || priority > 100) refuse("INVALID_REQUEST", "priority", std::to_string(priority) + " is not allowed", "must be -100 to 100");
-  if (labels.size() > 64) refuse("INVALID_REQUEST", "labels", std::to_string(labels.size()) + " labels", "at most 64");
-  for (const auto& [key, value] : labels) {
-    if (!is_label_key(key)) refuse("INVALID_REQUEST", "labels", "a key is malformed", "1 to 63 of a-z, 0-9, dot, _ and -");
-    if (value.size() > 255 || !is_text(value)) refuse("INVALID_REQUEST", "labels." + key, "is too long or no text", "at most 255 bytes of text in one line");
-  }
-  if (note.size() > 4000) refuse("INVALID_REQUEST", "note", std::to_string(note.size()) + " bytes", "at most 4000");
-}
 
 /// The known job if it was made from the same case.
 Submitted same_job(store::Job job, const std::string& spec, const std::string& digest) {
@@ -103,28 +60,17 @@ Submitted Queue::submit(const v1::CreateJobRequest& request) {
   if (!request.validate_only() && !is_uuid(request.request_id()))
     refuse("INVALID_REQUEST", "request_id", request.request_id().empty() ? "is missing" : "is not a UUID",
            "make a new UUID for each submit and send the same one again after a lost answer");
-  check_traits(request.priority(), {request.labels().begin(), request.labels().end()}, request.note());
-  Checked checked = check_case(request.case_(), request.files(), workspace_, solver_);
-  out.report = std::move(checked.report);
-  if (request.validate_only()) return out;
-  if (!out.report.ok()) {
-    std::vector<sim::Diagnostic> problems;
-    for (const v1::Diagnostic& d : out.report.diagnostics())
-      if (d.severity() == v1::Diagnostic::SEVERITY_ERROR)
-        problems.push_back({sim::Diagnostic::Severity::error, d.field(), d.message(), d.hint()});
-    throw convert::InputError("INVALID_CASE", std::move(problems));
-  }
-  double cpu_s = 0;
-  for (const v1::StageEstimate& stage : out.report.stages()) cpu_s += stage.cpu_s();
-  if (limits_.job_cpu_s > 0 && cpu_s > limits_.job_cpu_s)
-    fail(ErrorCode::resource_exhausted, "the case needs about {:.0f} CPU seconds, allowed are {:.0f}; use larger cells or fewer periods",
-         cpu_s, limits_.job_cpu_s);
+  check_traits("", request.priority(), {request.labels().begin(), request.labels().end()}, request.note());
+  check_files(request.files());
   store::NewJob job;
+  job.spec = encode_spec(request.case_(), request.files());
+  job.digest = sha256_hex(job.spec);
+  out.report = report_of(request.case_(), request.files(), job.digest);
+  if (request.validate_only()) return out;
+  require_runnable(out.report);
   job.uid = make_uid_();
   job.request_id = lower(request.request_id());
   job.title = request.case_().title();
-  job.spec = encode_spec(request.case_(), request.files());
-  job.digest = sha256_hex(job.spec);
   job.code_version = code_version();
   job.priority = request.priority();
   job.labels = {request.labels().begin(), request.labels().end()};
@@ -136,20 +82,43 @@ Submitted Queue::submit(const v1::CreateJobRequest& request) {
     known.report = std::move(out.report);
     return known;
   }
-  wake_();
+  if (!job.held) wake_();
   out.has_job = true;
   out.job = std::move(created.job);
   return out;
 }
 
-v1::CaseReport Queue::validate(const v1::Case& message, const Files& files) const {
-  return check_case(message, files, workspace_, solver_).report;
+void Queue::require_runnable(const v1::CaseReport& report) const {
+  if (!report.ok()) {
+    std::vector<sim::Diagnostic> problems;
+    for (const v1::Diagnostic& d : report.diagnostics())
+      if (d.severity() == v1::Diagnostic::SEVERITY_ERROR)
+        problems.push_back({sim::Diagnostic::Severity::error, d.field(), d.message(), d.hint()});
+    throw convert::InputError("INVALID_CASE", std::move(problems));
+  }
+  double cpu_s = 0;
+  for (const v1::StageEstimate& stage : report.stages()) cpu_s += stage.cpu_s();
+  if (limits_.job_cpu_s > 0 && cpu_s > limits_.job_cpu_s)
+    fail(ErrorCode::resource_exhausted, "the case needs about {:.0f} CPU seconds, allowed are {:.0f}; use larger cells or fewer periods",
+         cpu_s, limits_.job_cpu_s);
+}
+
+v1::CaseReport Queue::report_of(const v1::Case& message, const Files& files, const std::string& digest) {
+  if (auto known = reports_.find(digest)) return std::move(*known);
+  v1::CaseReport report = check_case(message, files, workspace_, solver_);
+  reports_.keep(digest, report);
+  return report;
+}
+
+v1::CaseReport Queue::validate(const v1::Case& message, const Files& files) {
+  check_files(files);
+  return report_of(message, files, sha256_hex(encode_spec(message, files)));
 }
 
 store::Job Queue::cancel(const std::string& uid) {
   for (;;) {
     const auto job = store_.find(uid);
-    if (!job) fail(ErrorCode::not_found, "job {} does not exist", uid);
+    if (!job) fail(ErrorCode::not_found, "job {} does not exist; list the jobs to find its name", uid);
     switch (job->state) {
       case State::queued:
       case State::held:
@@ -165,7 +134,7 @@ store::Job Queue::cancel(const std::string& uid) {
       case State::cancelled: return *job;
       case State::succeeded:
       case State::failed:
-        fail(ErrorCode::failed_precondition, "job {} has ended ({}); it cannot be cancelled any more", uid,
+        fail(ErrorCode::failed_precondition, "job {} has ended ({}); it cannot be cancelled any more; retry it for another run", uid,
              store::to_string(job->state));
     }
   }
@@ -191,21 +160,21 @@ store::Job Queue::shift(const std::string& uid, State from, State to, const std:
   for (;;) {
     if (auto moved = store_.move(uid, from, to, Reason::user, "")) return *moved;
     const auto job = store_.find(uid);
-    if (!job) fail(ErrorCode::not_found, "job {} does not exist", uid);
+    if (!job) fail(ErrorCode::not_found, "job {} does not exist; list the jobs to find its name", uid);
     if (job->state == to) return *job;
     if (job->state != from) fail(ErrorCode::failed_precondition, "job {} is {} and cannot be {}", uid, store::to_string(job->state), what);
   }
 }
 
 store::Job Queue::update(const std::string& uid, const store::JobUpdate& update) {
-  check_traits(update.priority.value_or(0), update.labels.value_or(store::Labels{}), update.note.value_or(""));
+  check_traits("job.", update.priority.value_or(0), update.labels.value_or(store::Labels{}), update.note.value_or(""));
   return store_.update(uid, update);
 }
 
 store::Job Queue::retry(const std::string& uid, const std::string& request_id, RetryFrom from) {
   if (!is_uuid(request_id)) refuse("INVALID_REQUEST", "request_id", "is no UUID", "make a new UUID for each retry");
   const auto base = store_.find(uid);
-  if (!base) fail(ErrorCode::not_found, "job {} does not exist", uid);
+  if (!base) fail(ErrorCode::not_found, "job {} does not exist; list the jobs to find its name", uid);
   if (!store::is_terminal(base->state)) fail(ErrorCode::failed_precondition, "job {} has not ended; cancel it first", uid);
   std::optional<store::Checkpoint> checkpoint;
   if (from != RetryFrom::start) checkpoint = workspace_.newest_checkpoint(store_.checkpoints(uid));
@@ -241,6 +210,20 @@ int Queue::expire(std::int64_t ended_before_ns) {
     ++n;
   }
   return n;
+}
+
+int Queue::sweep_files(std::chrono::seconds unused_for) {
+  std::set<std::string> used;
+  store::ListQuery running;
+  running.states = {State::running, State::cancelling};
+  running.limit = 1000;  // there are at most as many as workers
+  for (const store::Job& row : store_.list(running)) {
+    const auto job = store_.find(row.uid);
+    if (!job) continue;
+    const v1::CreateJobRequest spec = decode_spec(job->spec);
+    for (const v1::CaseFile& file : spec.files()) used.insert(sha256_hex(file.content()));
+  }
+  return workspace_.sweep_files(unused_for, used);
 }
 
 void Queue::erase(const std::string& uid) {

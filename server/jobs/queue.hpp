@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "server/jobs/report_cache.hpp"
 #include "server/jobs/submission.hpp"
 #include "server/store/job_store.hpp"
 
@@ -20,6 +21,12 @@ struct Submitted {
   bool has_job = false;  ///< false after validate_only
   store::Job job;
   v1::CaseReport report;
+};
+
+struct SubmittedSweep {
+  bool has_sweep = false;  ///< false after validate_only
+  store::Sweep sweep;
+  std::vector<v1::CaseReport> reports;  ///< one for each job; empty for a sweep that was known
 };
 
 /// Ten random letters and digits.
@@ -39,7 +46,11 @@ class Queue {
   /// Durable when it returns. Throws convert::InputError for a wrong case, a malformed request id, or a known
   /// one with another case (naming the fields); resource_exhausted when a limit is reached.
   Submitted submit(const v1::CreateJobRequest& request);
-  v1::CaseReport validate(const v1::Case& message, const Files& files) const;
+  v1::CaseReport validate(const v1::Case& message, const Files& files);
+  /// All jobs of a sweep or none (sweeps.cpp). Throws as submit().
+  SubmittedSweep submit_sweep(const v1::CreateSweepRequest& request);
+  /// Cancels the jobs of a sweep that have not ended. Throws not_found.
+  store::Sweep cancel_sweep(const std::string& uid);
   /// Throws not_found, and failed_precondition if the job has ended otherwise.
   store::Job cancel(const std::string& uid);
   /// As cancel(), without a checkpoint if it runs.
@@ -55,16 +66,23 @@ class Queue {
   void erase(const std::string& uid);
   /// Erases jobs that ended before this time, at most a hundred; how many.
   int expire(std::int64_t ended_before_ns);
+  /// Removes files of cases that do not run and that nobody has checked for so long; how many.
+  int sweep_files(std::chrono::seconds unused_for);
 
  private:
+  /// The report of a case, whose digest is known.
+  v1::CaseReport report_of(const v1::Case& message, const Files& files, const std::string& digest);
   const QueueLimits limits_;
   const Solver solver_;
   const Workspace& workspace_;
   store::JobStore& store_;
   const std::function<void()> wake_;
+  /// Throws for a case that its check refuses, or that costs too much.
+  void require_runnable(const v1::CaseReport& report) const;
   store::Job shift(const std::string& uid, store::State from, store::State to, const std::string& what);
   const std::function<void(const std::string&)> stop_, kill_;
   const std::function<std::string()> make_uid_;
+  ReportCache reports_{256};
 };
 
 }  // namespace seaway::jobs

@@ -98,7 +98,7 @@ RunResult run_job(const store::Job& job, const Solver& solver, const Workspace& 
     const std::string folder = workspace.run_folder(job.uid);
     for (const std::string& name : workspace.prepare_run(job.uid, store.checkpoints(job.uid), store.artifacts(job.uid)))
       log->warn("job={} event=removed_unrecorded file={}", job.uid, name);
-    StoreObserver observer(job.uid, job.last_sequence, folder, store, log);
+    StoreObserver observer(job.uid, job.last_sequence, folder, store, log, settings.metrics);
     sim::RunOptions options;
     options.folder = folder;
     options.checkpoint_interval = settings.checkpoint_interval_s;

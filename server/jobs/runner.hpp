@@ -13,6 +13,7 @@
 
 #include "server/jobs/solver.hpp"
 #include "server/jobs/workspace.hpp"
+#include "server/metrics/metrics.hpp"
 #include "server/store/job_store.hpp"
 
 namespace seaway::jobs {
@@ -20,6 +21,7 @@ namespace seaway::jobs {
 struct RunSettings {
   int threads = 1;
   double checkpoint_interval_s = 60;
+  metrics::Metrics* metrics = nullptr;  ///< null: nothing is counted
 };
 
 /// How an attempt ended; the caller moves the job accordingly.

@@ -29,8 +29,9 @@ bool is_plain_name(const std::string& name) {
 }  // namespace
 
 StoreObserver::StoreObserver(std::string uid, std::int64_t last_sequence, std::string folder, store::JobStore& store,
-                             std::shared_ptr<spdlog::logger> log)
-    : uid_(std::move(uid)), folder_(std::move(folder)), store_(store), log_(std::move(log)), next_(last_sequence + 1) {}
+                             std::shared_ptr<spdlog::logger> log, metrics::Metrics* metrics)
+    : uid_(std::move(uid)), folder_(std::move(folder)), store_(store), log_(std::move(log)), metrics_(metrics),
+      next_(last_sequence + 1) {}
 
 void StoreObserver::on_channels(const std::vector<sim::Channel>& channels) {
   std::vector<store::Channel> rows;
@@ -42,6 +43,12 @@ void StoreObserver::on_channels(const std::vector<sim::Channel>& channels) {
 
 void StoreObserver::put_stage(const v1::StageReport& r) {
   if (r.finished()) send_progress();
+  cells_ = r.cell_count();
+  if (r.finished() && metrics_ != nullptr) {
+    std::map<std::string, double> phases;
+    for (const v1::PhaseTiming& phase : r.phases()) phases[phase.phase()] = phase.cpu_s();
+    metrics_->stage_finished(r.stage(), phases);
+  }
   store_.put_stage(uid_, {r.stage(), r.SerializeAsString()});
   if (r.finished())
     log_->info("job={} stage={} event=stage_finished steps={} cpu_s={:.2f} converged={}", uid_, r.stage(), r.step_count(),
@@ -58,7 +65,14 @@ void StoreObserver::on_sample(const sim::Sample& s) {
     fail(ErrorCode::data_loss, "sample {} came, {} was due: the run went on from a checkpoint that is newer than the "
          "stored history", s.sequence, next_);
   next_ = std::max(next_, s.sequence + 1);
+  count_steps(s);
   store_.add_samples(uid_, {{s.sequence, s.stage, s.step, s.time, s.values}});
+}
+
+void StoreObserver::count_steps(const sim::Sample& s) {
+  if (s.sequence == 1) step_ = 0;
+  if (metrics_ != nullptr && step_ >= 0 && s.step > step_) metrics_->stepped(s.step - step_, cells_);
+  step_ = s.step;
 }
 
 void StoreObserver::on_progress(const sim::Progress& progress) {
@@ -70,14 +84,15 @@ void StoreObserver::on_progress(const sim::Progress& progress) {
 
 void StoreObserver::on_stage_finished(const sim::StageResult& result) { put_stage(convert::to_proto(result)); }
 
-void StoreObserver::on_checkpoint(const std::string& path, std::int64_t sequence) {
-  put_checkpoint(describe_checkpoint(path, sequence));
+void StoreObserver::on_checkpoint(const std::string& path, std::int64_t sequence, double write_s) {
+  put_checkpoint(describe_checkpoint(path, sequence), write_s);
 }
 
-void StoreObserver::put_checkpoint(const store::Checkpoint& checkpoint) {
+void StoreObserver::put_checkpoint(const store::Checkpoint& checkpoint, double write_s) {
   if (!is_in_folder(checkpoint.path) || checkpoint.sequence >= next_)
     fail(ErrorCode::internal, "checkpoint {} after sample {} is not one of this run", checkpoint.path, checkpoint.sequence);
   store_.add_checkpoint(uid_, checkpoint);
+  if (metrics_ != nullptr) metrics_->checkpoint_written(write_s);
   log_->debug("job={} event=checkpoint sequence={}", uid_, checkpoint.sequence);
 }
 

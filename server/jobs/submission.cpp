@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/util/field_comparator.h>
 #include <google/protobuf/util/message_differencer.h>
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "server/convert/case.hpp"
 #include "server/convert/input_error.hpp"
@@ -36,6 +38,23 @@ std::map<std::string, const v1::CaseFile*> by_name(const Files& files) {
       wrong(fmt::format("files[{}].name", i), "is given twice", "send each file once");
   }
   if (!problems.empty()) throw convert::InputError("INVALID_FILES", std::move(problems));
+  return out;
+}
+
+/// A field of the case that names a file.
+struct NamedFile {
+  const char* field;
+  std::string* name;
+};
+
+std::vector<NamedFile> files_of(sim::Case& c) {
+  std::vector<NamedFile> out;
+  if (!c.hull.offsets_file.empty())
+    out.push_back({c.dim == 2                                    ? "hull.offsets_section.file"
+                   : c.hull.shape == sim::Hull::Shape::stl ? "hull.stl.file"
+                                                                  : "hull.offsets_hull.file",
+                   &c.hull.offsets_file});
+  if (!c.wave.file.empty()) out.push_back({"wave.time_series.file", &c.wave.file});
   return out;
 }
 
@@ -92,17 +111,17 @@ v1::CreateJobRequest decode_spec(const std::string& bytes) {
 sim::Case bind_case(const v1::Case& message, const Files& files, const Workspace& workspace) {
   auto known = by_name(files);
   sim::Case core = convert::to_core(message);
-  if (!core.hull.offsets_file.empty()) {
-    const auto file = known.find(core.hull.offsets_file);
+  std::set<std::string> used;
+  for (const NamedFile& named : files_of(core)) {
+    const auto file = known.find(*named.name);
     if (file == known.end())
-      throw convert::InputError("INVALID_FILES", {{sim::Diagnostic::Severity::error, core.dim == 2                                   ? "hull.offsets_section.file"
-                                                                                     : core.hull.shape == sim::Hull::Shape::stl ? "hull.stl.file"
-                                                                                                                                 : "hull.offsets_hull.file",
-                                                   fmt::format("'{}' did not come with the case", core.hull.offsets_file),
+      throw convert::InputError("INVALID_FILES", {{sim::Diagnostic::Severity::error, named.field,
+                                                   fmt::format("'{}' did not come with the case", *named.name),
                                                    "send it in files, under the same name"}});
-    core.hull.offsets_file = workspace.keep_file(file->second->content());
-    known.erase(file);
+    used.insert(*named.name);
+    *named.name = workspace.keep_file(file->second->content());
   }
+  for (const std::string& name : used) known.erase(name);
   if (!known.empty())
     throw convert::InputError("INVALID_FILES", {{sim::Diagnostic::Severity::error, "files",
                                                  fmt::format("'{}' is named nowhere in the case", known.begin()->first),
@@ -110,16 +129,18 @@ sim::Case bind_case(const v1::Case& message, const Files& files, const Workspace
   return core;
 }
 
-Checked check_case(const v1::Case& message, const Files& files, const Workspace& workspace, const Solver& solver) {
-  Checked out;
-  out.core = bind_case(message, files, workspace);
-  out.report = convert::to_proto(solver.check(out.core));
-  return out;
+void check_files(const Files& files) { by_name(files); }
+
+v1::CaseReport check_case(const v1::Case& message, const Files& files, const Workspace& workspace, const Solver& solver) {
+  return convert::to_proto(solver.check(bind_case(message, files, workspace)));
 }
 
 std::vector<std::string> differing_fields(const std::string& spec_a, const std::string& spec_b) {
   PathReporter reporter;
   google::protobuf::util::MessageDifferencer differencer;
+  google::protobuf::util::DefaultFieldComparator numbers;
+  numbers.set_treat_nan_as_equal(true);
+  differencer.set_field_comparator(&numbers);
   differencer.ReportDifferencesTo(&reporter);
   differencer.Compare(decode_spec(spec_a), decode_spec(spec_b));
   return reporter.take();

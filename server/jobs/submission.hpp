@@ -21,12 +21,10 @@ v1::CreateJobRequest decode_spec(const std::string& spec);
 /// fields, for a file that the case names but the request lacks, and for one that nothing names.
 sim::Case bind_case(const v1::Case& message, const Files& files, const Workspace& workspace);
 
-struct Checked {
-  sim::Case core;
-  v1::CaseReport report;
-};
+/// Throws convert::InputError for files that are too many, too large, without a name or given twice.
+void check_files(const Files& files);
 /// bind_case, then the solver's own check. Does not throw for what the check finds; see report.ok.
-Checked check_case(const v1::Case& message, const Files& files, const Workspace& workspace, const Solver& solver);
+v1::CaseReport check_case(const v1::Case& message, const Files& files, const Workspace& workspace, const Solver& solver);
 
 /// Paths of the fields in which two specs differ, at most a dozen.
 std::vector<std::string> differing_fields(const std::string& spec_a, const std::string& spec_b);

@@ -53,7 +53,7 @@ double seconds(std::chrono::steady_clock::duration d) { return std::chrono::dura
 Supervision::Supervision(const ProcessSettings& settings, const Workspace& workspace, store::JobStore& store,
                          std::shared_ptr<spdlog::logger> log, const store::Job& job)
     : settings_(settings), workspace_(workspace), store_(store), log_(std::move(log)), job_(job),
-      observer_(job.uid, job.last_sequence, workspace.run_folder(job.uid), store, log_) {}
+      observer_(job.uid, job.last_sequence, workspace.run_folder(job.uid), store, log_, settings.run.metrics) {}
 
 std::string Supervision::order() const {
   worker::Order order;
@@ -164,7 +164,7 @@ void Supervision::take(const worker::Record& r) {
       break;
     case Record::kCheckpoint:
       observer_.put_checkpoint({r.checkpoint().sequence(), r.checkpoint().path(), r.checkpoint().size(),
-                                r.checkpoint().mtime_ns(), r.checkpoint().inode()});
+                                r.checkpoint().mtime_ns(), r.checkpoint().inode()}, r.checkpoint().write_s());
       break;
     case Record::kArtifact:
       observer_.on_artifact(r.artifact().name(), r.artifact().path(), r.artifact().media_type());

@@ -102,7 +102,7 @@ class PipeObserver final : public sim::RunObserver {
     m.set_held(p.held);
     pipe_.send(record);
   }
-  void on_checkpoint(const std::string& path, std::int64_t sequence) override {
+  void on_checkpoint(const std::string& path, std::int64_t sequence, double write_s) override {
     const store::Checkpoint c = describe_checkpoint(path, sequence);
     worker::Record record;
     auto& m = *record.mutable_checkpoint();
@@ -111,6 +111,7 @@ class PipeObserver final : public sim::RunObserver {
     m.set_size(c.size);
     m.set_mtime_ns(c.mtime_ns);
     m.set_inode(c.inode);
+    m.set_write_s(write_s);
     pipe_.send(record);
   }
   void on_artifact(const std::string& name, const std::string& path, const std::string& media_type) override {

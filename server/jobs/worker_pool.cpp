@@ -82,6 +82,8 @@ void WorkerPool::run_one(const store::Job& job) {
   }
   // A cancellation between take_next() and here has found nobody to tell.
   if (const auto now = store_.find(job.uid); now && now->state == State::cancelling) run.stop.request_stop();
+  if (settings_.metrics != nullptr && job.attempt == 1)
+    settings_.metrics->job_waited(1e-9 * static_cast<double>(job.started_ns - job.created_ns));
   log_->info("job={} event=started attempt={} after_sequence={}", job.uid, job.attempt, job.last_sequence);
   const RunResult result = executor_.run(job, {run.stop.get_token(), run.kill.get_token()});
   {
@@ -114,6 +116,7 @@ bool WorkerPool::try_end(const std::string& uid, const RunResult& result) {
   log_->log(fault ? spdlog::level::warn : spdlog::level::info,
             "job={} event={} state={} reason={} faults={} samples={} text=\"{}\"", uid, fault ? "fault" : "ended",
             store::to_string(job->state), store::to_string(job->reason), job->faults, job->last_sequence, job->message);
+  if (fault && job->state == State::queued && settings_.metrics != nullptr) settings_.metrics->recovered(1);
   if (full) wait_for_space();
   if (job->state == State::queued) wake();
   return true;

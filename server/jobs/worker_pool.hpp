@@ -19,6 +19,7 @@ namespace seaway::jobs {
 struct PoolSettings {
   int workers = 1;
   int max_faults = 3;  ///< attempts in a row that may end by a fault of the worker without a new sample
+  metrics::Metrics* metrics = nullptr;  ///< null: nothing is counted
 };
 
 class WorkerPool {

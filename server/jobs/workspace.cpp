@@ -65,7 +65,8 @@ Workspace::Workspace(std::string data_dir) : data_dir_(fs::absolute(std::move(da
 std::string Workspace::keep_file(std::string_view content) const {
   const std::string folder = data_dir_ + "/files";
   const std::string path = folder + "/" + sha256_hex(content);
-  if (fs::exists(path)) return path;
+  // In use again: the sweeper looks at this time.
+  if (::utimensat(AT_FDCWD, path.c_str(), nullptr, AT_SYMLINK_NOFOLLOW) == 0) return path;
   std::string aside = path + ".XXXXXX";
   const int fd = ::mkostemp(aside.data(), O_CLOEXEC);
   if (fd < 0) fail(ErrorCode::unavailable, "{}: {}", aside, std::strerror(errno));
@@ -88,6 +89,29 @@ std::string Workspace::keep_file(std::string_view content) const {
   }
   sync_folder(folder);
   return path;
+}
+
+int Workspace::sweep_files(std::chrono::seconds unused_for, const std::set<std::string>& used) const {
+  const auto is_old = [&](const fs::path& file) {
+    std::error_code error;
+    const auto touched = fs::last_write_time(file, error);
+    return !error && fs::file_time_type::clock::now() - touched > unused_for;
+  };
+  int removed = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(data_dir_) / "files")) {
+    const fs::path file = entry.path(), aside = file.string() + ".unused";
+    if (used.count(file.filename().string()) > 0 || !is_old(file)) continue;
+    // Who wanted it until now has touched it; who wants it from now on does not find it and writes it anew.
+    std::error_code error;
+    fs::rename(file, aside, error);
+    if (error) continue;
+    if (!is_old(aside)) {
+      fs::rename(aside, file, error);
+    } else if (fs::remove(aside, error)) {
+      ++removed;
+    }
+  }
+  return removed;
 }
 
 std::string Workspace::lease_path(const std::string& uid) const { return data_dir_ + "/leases/" + uid; }

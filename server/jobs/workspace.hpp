@@ -6,7 +6,9 @@
 // Names that users chose never become file names. Safe from any thread.
 #pragma once
 
+#include <chrono>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +27,9 @@ class Workspace {
 
   /// Stores the content durably (written aside, synced, renamed) and returns its path.
   std::string keep_file(std::string_view content) const;
+  /// Removes kept files that nobody has asked for since `unused_for`, except those whose digests are `used`; how many.
+  /// Each comes again when its case runs, as the store has the content too.
+  int sweep_files(std::chrono::seconds unused_for, const std::set<std::string>& used) const;
 
   const std::string& data_dir() const { return data_dir_; }
   std::string lease_path(const std::string& uid) const;

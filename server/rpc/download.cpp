@@ -25,17 +25,19 @@ DownloadCall::~DownloadCall() {
 
 void DownloadCall::open() {
   const std::string uid = parse_job_name(request_.job(), "job");
+  if (request_.artifact().empty()) refuse_field("artifact", "is missing", "ListArtifacts shows their names");
+  if (request_.offset() < 0) refuse_field("offset", "is negative", "0 starts at the first byte");
   std::string path;
   for (const store::Artifact& a : store_.artifacts(uid))
     if (a.name == request_.artifact()) path = a.path;
-  if (path.empty()) fail(ErrorCode::not_found, "job {} has no artifact '{}'", uid, request_.artifact());
+  if (path.empty()) fail(ErrorCode::not_found, "job {} has no artifact '{}'; ListArtifacts shows those it has", uid, request_.artifact());
   fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   struct stat info {};
   if (fd_ < 0 || ::fstat(fd_, &info) != 0)
     fail(ErrorCode::data_loss, "artifact '{}' of job {}: {}", request_.artifact(), uid, std::strerror(errno));
   size_ = info.st_size;
   at_ = request_.offset();
-  if (at_ < 0 || at_ > size_)
+  if (at_ > size_)
     throw OutOfRange("offset " + std::to_string(at_) + "; the artifact has " + std::to_string(size_) + " bytes");
 }
 

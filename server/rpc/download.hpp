@@ -14,6 +14,7 @@ class DownloadCall final : public StreamCall<v1::DownloadArtifactResponse> {
                const store::JobStore& store, v1::DownloadArtifactRequest request)
       : StreamCall(context, registry, queue, limits), store_(store), request_(std::move(request)) {}
   ~DownloadCall() override;
+  const char* kind() const override { return "download"; }
 
  private:
   Next next(v1::DownloadArtifactResponse& response, bool idle) override;

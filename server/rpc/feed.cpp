@@ -20,7 +20,7 @@ std::shared_ptr<const Snapshot> Feed::snapshot() {
   const std::uint64_t commits = commits_.load();
   if (snapshot_ != nullptr && read_at_ == commits) return snapshot_;
   auto job = store_.find(uid_);
-  if (!job) fail(ErrorCode::not_found, "job {} does not exist", uid_);
+  if (!job) fail(ErrorCode::not_found, "job {} does not exist; list the jobs to find its name", uid_);
   auto fresh = std::make_shared<Snapshot>();
   job->spec.clear();
   fresh->job = std::move(*job);

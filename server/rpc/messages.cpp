@@ -17,10 +17,12 @@ void put_time(std::int64_t ns, google::protobuf::Timestamp& out) {
   out.set_nanos(static_cast<std::int32_t>(ns % 1'000'000'000));
 }
 
-/// What tells one filter from another.
-unsigned filter_key(const store::ListQuery& filter) {
-  unsigned key = 0;
-  for (const store::State s : filter.states) key |= 1u << static_cast<unsigned>(s);
+/// What a place belongs to: it tells one filter from another, and a place from one that somebody has thought up.
+unsigned token_key(std::int64_t before_id, const store::ListQuery& filter) {
+  unsigned key = static_cast<unsigned>(before_id) * 2654435761u;  // Knuth's multiplicative hash
+  unsigned states = 0;
+  for (const store::State s : filter.states) states |= 1u << static_cast<unsigned>(s);
+  key = key * 16777619u ^ states;
   for (const auto& [name, value] : filter.labels)
     key = key * 16777619u ^ static_cast<unsigned>(std::hash<std::string>{}(name + '\n' + value));
   return key;
@@ -56,6 +58,37 @@ v1::Job to_proto(const store::Job& job) {
   if (!job.base_uid.empty()) m.set_base_job("jobs/" + job.base_uid);
   m.set_run_s(1e-3 * static_cast<double>(job.run_ms));
   m.set_fault_count(job.faults);
+  return m;
+}
+
+v1::Sweep to_proto(const store::Sweep& sweep, bool with_points) {
+  v1::Sweep m;
+  m.set_name("sweeps/" + sweep.uid);
+  m.set_uid(sweep.uid);
+  m.set_title(sweep.title);
+  put_time(sweep.created_ns, *m.mutable_create_time());
+  m.set_spec_digest(sweep.digest);
+  m.set_code_version(sweep.code_version);
+  m.set_job_count(static_cast<int>(sweep.members.size()));
+  for (int state = v1::Job::STATE_QUEUED; state <= v1::Job::STATE_CANCELLED; ++state) m.add_state_counts(0);
+  m.set_ended(true);
+  for (const store::SweepMember& member : sweep.members) {
+    if (member.exists) {
+      const int at = static_cast<int>(member.state) - v1::Job::STATE_QUEUED;
+      m.set_state_counts(at, m.state_counts(at) + 1);
+      if (!store::is_terminal(member.state)) m.set_ended(false);
+    }
+    if (!with_points) continue;
+    v1::SweepPoint& point = *m.add_points();
+    point.set_job("jobs/" + member.uid);
+    point.set_case_name(member.point.case_name);
+    point.set_period_s(member.point.period_s);
+    point.set_height_m(member.point.height_m);
+    point.set_heading_deg(member.point.heading_deg);
+    if (!member.exists) continue;
+    point.set_state(static_cast<v1::Job::State>(member.state));
+    point.set_fraction(member.fraction);
+  }
   return m;
 }
 
@@ -125,6 +158,12 @@ void refuse_field(const std::string& field, const std::string& message, const st
   throw convert::InputError("INVALID_REQUEST", {{sim::Diagnostic::Severity::error, field, message, hint}});
 }
 
+std::string parse_sweep_name(const std::string& name, const std::string& field) {
+  if (!name.starts_with("sweeps/") || !jobs::is_uid(name.substr(7)))
+    refuse_field(field, name.empty() ? "is missing" : "is not the name of a sweep", "write sweeps/ and the uid");
+  return name.substr(7);
+}
+
 std::string parse_job_name(const std::string& name, const std::string& field) {
   if (!name.starts_with("jobs/") || !jobs::is_uid(name.substr(5)))
     refuse_field(field, name.empty() ? "is missing" : "is not the name of a job", "write jobs/ and the uid");
@@ -132,18 +171,15 @@ std::string parse_job_name(const std::string& name, const std::string& field) {
 }
 
 std::string make_page_token(std::int64_t before_id, const store::ListQuery& filter) {
-  return fmt::format("{:x}-{:x}", before_id, filter_key(filter));
+  return fmt::format("{:x}-{:x}", before_id, token_key(before_id, filter));
 }
 
 std::int64_t parse_page_token(const std::string& token, const store::ListQuery& filter) {
   if (token.empty()) return 0;
   std::int64_t id = 0;
-  unsigned key = 0;
-  const char* end = token.data() + token.size();
-  const auto first = std::from_chars(token.data(), end, id, 16);
-  const bool dash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '-';
-  const auto second = dash ? std::from_chars(first.ptr + 1, end, key, 16) : first;
-  if (!dash || second.ec != std::errc{} || second.ptr != end || id <= 0 || key != filter_key(filter))
+  std::from_chars(token.data(), token.data() + token.size(), id, 16);
+  // There is one way to write each token.
+  if (id <= 0 || token != make_page_token(id, filter))
     refuse_field("page_token", "does not belong to this list", "use next_page_token of the page before, with the same filter");
   return id;
 }

@@ -21,6 +21,9 @@ void to_proto(const std::vector<store::EnvelopePoint>& points, const std::vector
               v1::ReadEnvelopeResponse& out);
 
 /// uid out of jobs/<uid>. Throws convert::InputError naming `field`.
+v1::Sweep to_proto(const store::Sweep& sweep, bool with_points);
+/// The uid out of sweeps/<uid>.
+std::string parse_sweep_name(const std::string& name, const std::string& field);
 std::string parse_job_name(const std::string& name, const std::string& field);
 
 /// Where a list goes on, tied to its filter.

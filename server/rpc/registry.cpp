@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "server/rpc/registry.hpp"
 
+#include <algorithm>
+
 namespace seaway::rpc {
 
 bool Registry::add(LiveCall* key, const std::shared_ptr<LiveCall>& call) {
@@ -18,6 +20,15 @@ void Registry::remove(LiveCall* key) {
 std::size_t Registry::size() const {
   const std::lock_guard lock(mutex_);
   return calls_.size();
+}
+
+Census Registry::census() const {
+  Census out;
+  for (const auto& call : all()) {
+    ++out.kinds[call->kind()];
+    out.largest_lag = std::max(out.largest_lag, call->lag());
+  }
+  return out;
 }
 
 std::vector<std::shared_ptr<LiveCall>> Registry::all() const {

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace seaway::rpc {
@@ -21,8 +22,17 @@ class LiveCall {
   virtual void close() = 0;
   /// The peer does not read: cut the call.
   virtual void abort() = 0;
+  /// What it is counted as.
+  virtual const char* kind() const { return "call"; }
+  /// Stored samples that its reader has not received yet.
+  virtual std::int64_t lag() { return 0; }
   /// About once a second.
   virtual void tick(std::chrono::steady_clock::time_point) {}
+};
+
+struct Census {
+  std::map<std::string, int> kinds;
+  std::int64_t largest_lag = 0;
 };
 
 class Registry {
@@ -35,6 +45,7 @@ class Registry {
   /// that time; true if none is left.
   bool close_all(std::chrono::milliseconds grace);
   std::size_t size() const;
+  Census census() const;
 
  private:
   std::vector<std::shared_ptr<LiveCall>> all() const;

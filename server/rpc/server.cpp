@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "server/rpc/malformed.hpp"
 #include "server/rpc/services.hpp"
 
 namespace seaway::rpc {
@@ -42,6 +43,8 @@ struct Server::Parts {
         telemetry(backend(s, queue, store)),
         stages(backend(s, queue, store)),
         artifacts(backend(s, queue, store)),
+        reports(backend(s, queue, store)),
+        sweeps(backend(s, queue, store)),
         admin(backend(s, queue, store)),
         cases(backend(s, queue, store)) {}
 
@@ -68,6 +71,8 @@ struct Server::Parts {
   TelemetryService telemetry;
   StagesService stages;
   ArtifactsService artifacts;
+  ReportsService reports;
+  SweepsService sweeps;
   AdminService admin;
   CasesService cases;
   std::unique_ptr<grpc::Server> server;
@@ -90,10 +95,15 @@ Server::Server(const ServerSettings& settings, jobs::Queue& queue, store::JobSto
   grpc::ResourceQuota quota("seaway");
   quota.Resize(std::size_t{512} << 20);
   builder.SetResourceQuota(quota);
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
+  interceptors.push_back(make_malformed_answer());
+  builder.experimental().SetInterceptorCreators(std::move(interceptors));
   builder.RegisterService(&parts_->jobs);
   builder.RegisterService(&parts_->telemetry);
   builder.RegisterService(&parts_->stages);
   builder.RegisterService(&parts_->artifacts);
+  builder.RegisterService(&parts_->reports);
+  builder.RegisterService(&parts_->sweeps);
   builder.RegisterService(&parts_->admin);
   builder.RegisterService(&parts_->cases);
   parts_->server = builder.BuildAndStart();
@@ -102,12 +112,15 @@ Server::Server(const ServerSettings& settings, jobs::Queue& queue, store::JobSto
          is_unix ? "" : ":" + std::to_string(settings.port));
   address_ = is_unix ? host : host + ":" + std::to_string(port);
   auto* health = parts_->server->GetHealthCheckService();
-  for (const char* name : {"seaway.v1.Jobs", "seaway.v1.Telemetry", "seaway.v1.Stages", "seaway.v1.Artifacts", "seaway.v1.Admin", "seaway.v1.Cases", "storage"})
+  for (const char* name : {"seaway.v1.Jobs", "seaway.v1.Telemetry", "seaway.v1.Stages", "seaway.v1.Artifacts", "seaway.v1.Reports",
+                           "seaway.v1.Sweeps", "seaway.v1.Admin", "seaway.v1.Cases", "storage"})
     health->SetServingStatus(name, true);
   parts_->ticker = std::jthread([parts = parts_.get(), &store](std::stop_token stop) { parts->tick_loop(std::move(stop), store); });
 }
 
 Server::~Server() { shutdown(); }
+
+Census Server::census() const { return parts_->registry.census(); }
 
 void Server::shutdown() {
   if (parts_ == nullptr || parts_->server == nullptr) return;

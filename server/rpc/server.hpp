@@ -8,6 +8,7 @@
 #include "server/jobs/queue.hpp"
 #include "server/rpc/access.hpp"
 #include "server/rpc/facts.hpp"
+#include "server/rpc/registry.hpp"
 #include "server/rpc/stream_call.hpp"
 #include "server/store/job_store.hpp"
 
@@ -32,6 +33,8 @@ class Server {
   ~Server();
   /// host:port, or unix:/path.
   const std::string& address() const { return address_; }
+  /// The calls that are alive now.
+  Census census() const;
   /// Says NOT_SERVING, refuses new calls, finishes the live ones and stops; at most about five seconds.
   void shutdown();
 

@@ -5,56 +5,22 @@
 
 #include "core/base/error.hpp"
 #include "core/base/version.hpp"
+#include "server/jobs/requests.hpp"
 #include "server/jobs/submission.hpp"
+#include "server/rpc/answer.hpp"
 #include "server/rpc/download.hpp"
 #include "server/rpc/messages.hpp"
-#include "server/rpc/unary.hpp"
 #include "server/rpc/watch.hpp"
 #include "server/rpc/watch_jobs.hpp"
 
 namespace seaway::rpc {
 namespace {
 
-/// Who may call what, and the name of it for the audit trail.
-struct Method {
-  Role role;
-  const char* name;
-};
-
-/// What changes something is recorded, with what came of it.
-template <class Work>
-grpc::ServerUnaryReactor* answer(const Backend& b, grpc::CallbackServerContext* context, Method method,
-                                 const std::string& target, Work work) {
-  return run_unary(context, b.registry, b.work, [b, context, method, target, work = std::move(work)]() mutable {
-    const std::string who = b.access.check(*context, method.role, method.name, target);
-    try {
-      work();
-    } catch (const std::exception& error) {
-      if (method.role != Role::viewer) b.access.record(*context, who, method.name, target, error.what());
-      throw;
-    }
-    if (method.role != Role::viewer) b.access.record(*context, who, method.name, target, "OK");
-  });
-}
-
-store::Job find_job(const Backend& b, const std::string& name, const std::string& field) {
-  const std::string uid = parse_job_name(name, field);
-  auto job = b.store.find(uid);
-  if (!job) fail(ErrorCode::not_found, "job {} does not exist", uid);
-  return std::move(*job);
-}
-
 void fill_header(const store::Job& job, const std::vector<store::Channel>& channels, v1::StreamHeader& header) {
   header.set_first_available(1);
   header.set_latest(job.last_sequence);
   header.set_attempt(job.attempt);
   *header.mutable_channels() = to_proto(channels);
-}
-
-int page_size(int wanted, int normal, int largest) {
-  if (wanted < 0 || wanted > largest)
-    refuse_field("page_size", fmt::format("{} is not allowed", wanted), fmt::format("must be 0 to {}", largest));
-  return wanted == 0 ? normal : wanted;
 }
 
 /// Admits a stream or answers at once that there are too many, or that it is not allowed.
@@ -87,6 +53,7 @@ grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* co
 grpc::ServerUnaryReactor* JobsService::GetJob(grpc::CallbackServerContext* context, const v1::GetJobRequest* request,
                                               v1::Job* response) {
   return answer(b_, context, {Role::viewer, "GetJob"}, request->name(), [b = b_, request, response] {
+    if (!v1::JobView_IsValid(request->view())) refuse_field("view", fmt::format("{} is unknown", static_cast<int>(request->view())), "see JobView");
     const store::Job job = find_job(b, request->name(), "name");
     *response = to_proto(job);
     if (request->view() == v1::JOB_VIEW_BASIC) return;
@@ -106,6 +73,7 @@ grpc::ServerUnaryReactor* JobsService::ListJobs(grpc::CallbackServerContext* con
       query.states.push_back(static_cast<store::State>(request->states(i)));
     }
     query.labels = {request->labels().begin(), request->labels().end()};
+    jobs::check_labels("labels", query.labels);
     query.before_id = parse_page_token(request->page_token(), query);
     const auto jobs = b.store.list(query);
     for (const store::Job& job : jobs) *response->add_jobs() = to_proto(job);
@@ -199,6 +167,8 @@ grpc::ServerUnaryReactor* TelemetryService::ReadEnvelope(grpc::CallbackServerCon
     if (most < 2 || most > 10'000) refuse_field("max_points", fmt::format("{} is not allowed", most), "must be 2 to 10000");
     if (request->after_sequence() < 0) refuse_field("after_sequence", "is negative", "0 starts at the first sample");
     if (request->until_sequence() < 0) refuse_field("until_sequence", "is negative", "0 goes to the last sample");
+    if (request->until_sequence() > 0 && request->until_sequence() <= request->after_sequence())
+      refuse_field("until_sequence", fmt::format("{} leaves nothing", request->until_sequence()), "must be above after_sequence, or 0");
     const store::Job job = find_job(b, request->job(), "job");
     const auto channels = b.store.channels(job.uid);
     to_proto(b.store.envelope(job.uid, request->after_sequence(), request->until_sequence(), most), channels, *response);

@@ -92,6 +92,34 @@ class ArtifactsService final : public v1::Artifacts::CallbackService {
   Backend b_;
 };
 
+class ReportsService final : public v1::Reports::CallbackService {
+ public:
+  explicit ReportsService(Backend backend) : b_(backend) {}
+  grpc::ServerUnaryReactor* GetDecayReport(grpc::CallbackServerContext* context, const v1::GetDecayReportRequest* request,
+                                           v1::DecayReport* response) override;
+  grpc::ServerUnaryReactor* GetRaoReport(grpc::CallbackServerContext* context, const v1::GetRaoReportRequest* request,
+                                         v1::RaoReport* response) override;
+
+ private:
+  Backend b_;
+};
+
+class SweepsService final : public v1::Sweeps::CallbackService {
+ public:
+  explicit SweepsService(Backend backend) : b_(backend) {}
+  grpc::ServerUnaryReactor* CreateSweep(grpc::CallbackServerContext* context, const v1::CreateSweepRequest* request,
+                                        v1::CreateSweepResponse* response) override;
+  grpc::ServerUnaryReactor* GetSweep(grpc::CallbackServerContext* context, const v1::GetSweepRequest* request,
+                                     v1::Sweep* response) override;
+  grpc::ServerUnaryReactor* ListSweeps(grpc::CallbackServerContext* context, const v1::ListSweepsRequest* request,
+                                       v1::ListSweepsResponse* response) override;
+  grpc::ServerUnaryReactor* CancelSweep(grpc::CallbackServerContext* context, const v1::CancelSweepRequest* request,
+                                        v1::Sweep* response) override;
+
+ private:
+  Backend b_;
+};
+
 class AdminService final : public v1::Admin::CallbackService {
  public:
   explicit AdminService(Backend backend) : b_(backend) {}

@@ -11,11 +11,21 @@ void WatchCall::join() {
   if (request_.after_sequence() < 0) refuse_field("after_sequence", "is negative", "0 starts at the first sample");
   cursor_ = request_.after_sequence();
   feed_ = feeds_.join(uid_, this, std::static_pointer_cast<WatchCall>(shared_from_this()));
+  joined_ = true;
+}
+
+std::int64_t WatchCall::lag() {
+  if (!joined_) return 0;
+  try {
+    return feed_->snapshot()->job.last_sequence - cursor_;
+  } catch (const Error&) {
+    return 0;  // the job has been deleted: the stream ends soon
+  }
 }
 
 void WatchCall::check_cursor(const Snapshot& now) {
   if (cursor_ > now.job.last_sequence)
-    throw OutOfRange("after_sequence " + std::to_string(cursor_) + " is beyond the latest sample " +
+    throw OutOfRange("after_sequence " + std::to_string(cursor_.load()) + " is beyond the latest sample " +
                      std::to_string(now.job.last_sequence) + "; available are samples from 1 on");
 }
 

@@ -15,6 +15,7 @@ class WatchJobsCall final : public StreamCall<v1::WatchJobsResponse>, public Wat
                 Feeds& feeds, store::JobStore& store, v1::WatchJobsRequest request)
       : StreamCall(context, registry, queue, limits), feeds_(feeds), store_(store), request_(std::move(request)) {}
   void on_news() override { schedule(); }
+  const char* kind() const override { return "jobs"; }
 
  private:
   Next next(v1::WatchJobsResponse& response, bool idle) override;

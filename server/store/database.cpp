@@ -86,6 +86,13 @@ Statement Database::prepare(std::string_view sql) {
   return {db_, entry->second};
 }
 
+Statement Database::prepare_once(std::string_view sql) {
+  sqlite3_stmt* statement = nullptr;
+  const int code = sqlite3_prepare_v3(db_, sql.data(), static_cast<int>(sql.size()), 0, &statement, nullptr);
+  if (code != SQLITE_OK) raise(db_, code, sql);
+  return {db_, statement, true};
+}
+
 std::int64_t Database::changes() const { return sqlite3_changes64(db_); }
 std::int64_t Database::last_row_id() const { return sqlite3_last_insert_rowid(db_); }
 
@@ -110,6 +117,10 @@ void Database::checkpoint(bool truncate) {
 
 Statement::~Statement() {
   if (statement_ == nullptr) return;
+  if (once_) {
+    sqlite3_finalize(statement_);
+    return;
+  }
   sqlite3_reset(statement_);
   sqlite3_clear_bindings(statement_);
 }

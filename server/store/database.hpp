@@ -28,6 +28,10 @@ class Database {
   void execute(const std::string& sql);
   /// Prepared once per text and kept; reset and ready to bind.
   Statement prepare(std::string_view sql);
+  /// For texts of which there are many: prepared anew each time and not kept.
+  Statement prepare_once(std::string_view sql);
+  /// Statements that are kept.
+  std::size_t kept() const { return statements_.size(); }
   std::int64_t changes() const;
   std::int64_t last_row_id() const;
   /// A copy of the database, as it is now, in a new file that is durable when this returns.
@@ -47,9 +51,10 @@ class Database {
 /// A statement in use. Parameters are bound in order; columns are read in order of the query.
 class Statement {
  public:
-  Statement(sqlite3* db, sqlite3_stmt* statement) : db_(db), statement_(statement) {}
+  /// `once`: it ends with this object.
+  Statement(sqlite3* db, sqlite3_stmt* statement, bool once = false) : db_(db), statement_(statement), once_(once) {}
   ~Statement();
-  Statement(Statement&& other) noexcept : db_(other.db_), statement_(other.statement_) { other.statement_ = nullptr; }
+  Statement(Statement&& other) noexcept : db_(other.db_), statement_(other.statement_), once_(other.once_) { other.statement_ = nullptr; }
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
 
@@ -82,6 +87,7 @@ class Statement {
  private:
   sqlite3* db_;
   sqlite3_stmt* statement_;
+  bool once_;
 };
 
 }  // namespace seaway::store

@@ -18,6 +18,7 @@
 
 #include "server/store/envelope.hpp"
 #include "server/store/job.hpp"
+#include "server/store/sweep.hpp"
 
 namespace seaway::store {
 
@@ -30,7 +31,7 @@ struct ListQuery {
 
 struct Created {
   Job job;
-  bool existed = false;  ///< the request id was known; `job` is the old one, whatever its digest
+  bool existed = false;  ///< the request id was known; `job` is the old one, whatever its digest, with its spec
 };
 
 struct Recovery {
@@ -71,6 +72,13 @@ class JobStore {
   virtual Recovery recover(int max_stalled) = 0;
   /// Removes an ended job and its data; false if it has not ended. Throws not_found. Its request is remembered.
   virtual bool erase(const std::string& uid) = 0;
+
+  // --- sweeps ----------------------------------------------------------------------------------------
+  /// All its jobs or none. Throws as create_limited, with the limit for all together.
+  virtual CreatedSweep create_sweep(const NewSweep& sweep, int limit) = 0;
+  virtual std::optional<Sweep> find_sweep(const std::string& uid) const = 0;
+  /// Newest first, without their spec; only those created before this one (0: all).
+  virtual std::vector<Sweep> list_sweeps(std::int64_t before_id, int limit) const = 0;
 
   /// Jobs that ended before this time, oldest first.
   virtual std::vector<std::string> ended_before(std::int64_t time_ns, int limit) const = 0;

@@ -80,7 +80,7 @@ std::vector<EnvelopePoint> envelope(Database& db, const std::string& uid, std::i
   std::int64_t job = 0, latest = 0;
   {
     Statement query = db.prepare("SELECT id, last_sequence FROM jobs WHERE uid = ?");
-    if (!query.bind(uid).step()) fail(ErrorCode::not_found, "job {} does not exist", uid);
+    if (!query.bind(uid).step()) fail(ErrorCode::not_found, "job {} does not exist; list the jobs to find its name", uid);
     job = query.integer(0);
     latest = query.integer(1);
   }

@@ -45,7 +45,8 @@ Job read_job(Database& db, const Statement& row, bool with_spec) {
 }
 
 std::optional<Job> find_by(Database& db, std::string_view column, const std::string& value) {
-  Statement query = db.prepare("SELECT " + std::string(job_columns) + ", spec FROM jobs WHERE " + std::string(column) + " = ?");
+  const std::string sql = "SELECT " + std::string(job_columns) + ", spec FROM jobs WHERE " + std::string(column) + " = ?";
+  Statement query = db.prepare(sql);
   if (!query.bind(value).step()) return std::nullopt;
   return read_job(db, query, true);
 }
@@ -94,10 +95,14 @@ Created create(Database& db, const NewJob& job, int limit, std::int64_t now) {
       .bind(job.uid, job.request_id, job.title, static_cast<int>(job.held ? State::held : State::queued), job.digest,
             job.code_version, Statement::Blob{job.spec}, now, job.priority, job.note, job.base_uid)
       .run();
-  set_labels(db, db.last_row_id(), job.labels);
+  const std::int64_t id = db.last_row_id();
+  set_labels(db, id, job.labels);
   add_event(db, job.uid, "STATE", job.held ? "HELD" : "QUEUED", now);
   add_change(db, job.uid, "CREATED", now);
-  return {*find(db, job.uid), false};
+  static const std::string sql = "SELECT " + std::string(job_columns) + " FROM jobs WHERE id = ?";
+  Statement row = db.prepare(sql);
+  row.bind(id).step();
+  return {read_job(db, row, false), false};
 }
 
 std::optional<Job> find(Database& db, const std::string& uid) { return find_by(db, "uid", uid); }
@@ -116,7 +121,8 @@ std::vector<Job> list(Database& db, const ListQuery& query) {
     sql += " AND EXISTS (SELECT 1 FROM labels WHERE job = jobs.id AND key = ? AND value = ?)";
   sql += " ORDER BY id DESC LIMIT ?";
   std::vector<Job> out;
-  Statement rows = db.prepare(sql);
+  // Thousands of filters are possible: kept, they would fill the memory.
+  Statement rows = db.prepare_once(sql);
   int index = 0;
   rows.bind_one(++index, query.before_id > 0 ? query.before_id : std::int64_t{1} << 62);
   for (const auto& [key, value] : query.labels) {
@@ -206,13 +212,14 @@ Recovery recover(Database& db, int max_stalled, std::int64_t now) {
 
 bool erase(Database& db, const std::string& uid, std::int64_t now) {
   const auto job = find(db, uid);
-  if (!job) fail(ErrorCode::not_found, "job {} does not exist", uid);
+  if (!job) fail(ErrorCode::not_found, "job {} does not exist; list the jobs to find its name", uid);
   if (!is_terminal(job->state)) return false;
   add_change(db, uid, "DELETED", now);
   db.prepare("INSERT OR REPLACE INTO tombstones (request_id, uid, deleted_ns) VALUES (?, ?, ?)")
       .bind(job->request_id, uid, now)
       .run();
   db.prepare("DELETE FROM jobs WHERE id = ?").bind(job->id).run();
+  drop_empty_sweep(db, uid);
   return true;
 }
 

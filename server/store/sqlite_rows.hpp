@@ -36,6 +36,13 @@ ChangeRange change_range(Database& db);
 void add_audit(Database& db, const AuditRow& row, std::int64_t now);
 std::vector<AuditRow> audit(Database& db, int limit);
 
+// --- sweeps ------------------------------------------------------------------------------------------
+CreatedSweep create_sweep(Database& db, const NewSweep& sweep, int limit, std::int64_t now);
+std::optional<Sweep> find_sweep(Database& db, const std::string& uid);
+std::vector<Sweep> list_sweeps(Database& db, std::int64_t before_id, int limit);
+/// After a job was deleted: a sweep none of whose jobs exists goes too.
+void drop_empty_sweep(Database& db, const std::string& job_uid);
+
 // --- the data of a run -----------------------------------------------------------------------------
 /// id, or not_found.
 std::int64_t job_id(Database& db, const std::string& uid);

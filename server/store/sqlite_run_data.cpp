@@ -16,7 +16,7 @@ struct Tail {
 
 Tail tail_of(Database& db, const std::string& uid) {
   Statement query = db.prepare("SELECT id, last_sequence FROM jobs WHERE uid = ?");
-  if (!query.bind(uid).step()) fail(ErrorCode::not_found, "job {} does not exist", uid);
+  if (!query.bind(uid).step()) fail(ErrorCode::not_found, "job {} does not exist; list the jobs to find its name", uid);
   return {query.integer(0), query.integer(1)};
 }
 

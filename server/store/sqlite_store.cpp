@@ -85,7 +85,7 @@ class SqliteStore final : public JobStore {
         lock_(o.vfs.empty() ? std::make_unique<LockFile>(o.path + ".lock") : nullptr),
         prepared_(prepare_file(o.path, o.vfs)),
         readers_(o.path, o.vfs, std::max(1, o.readers)),
-        writer_({o.path, o.vfs, o.commit_interval, o.own_thread, o.publish_too_early}, [this](const auto& uids) { publish(uids); }, warn_) {}
+        writer_({o.path, o.vfs, o.commit_interval, o.own_thread, o.publish_too_early, o.committed}, [this](const auto& uids) { publish(uids); }, warn_) {}
 
   Created create(const NewJob& job) override { return create_limited(job, 0); }
 
@@ -157,6 +157,22 @@ class SqliteStore final : public JobStore {
       touched.insert(uid);
     });
     return erased;
+  }
+
+  CreatedSweep create_sweep(const NewSweep& sweep, int limit) override {
+    CreatedSweep out;
+    change([&](Database& db, std::set<std::string>& touched) {
+      out = rows::create_sweep(db, sweep, limit, now_ns_());
+      if (!out.existed)
+        for (const NewJob& job : sweep.jobs) touched.insert(job.uid);
+    });
+    return out;
+  }
+  std::optional<Sweep> find_sweep(const std::string& uid) const override {
+    return readers_.use([&](Database& db) { return rows::find_sweep(db, uid); });
+  }
+  std::vector<Sweep> list_sweeps(std::int64_t before_id, int limit) const override {
+    return readers_.use([&](Database& db) { return rows::list_sweeps(db, before_id, limit); });
   }
 
   void set_channels(const std::string& uid, std::vector<Channel> channels) override {

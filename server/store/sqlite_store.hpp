@@ -19,6 +19,7 @@ struct SqliteOptions {
   int readers = 4;                                   ///< connections for reading
   std::function<std::int64_t()> now_ns;              ///< empty: the system's clock
   std::function<void(const std::string&)> warn;      ///< something a person should know
+  std::function<void(double seconds)> committed;     ///< told how long each transaction took
   /// For simulations: another disk under SQLite (empty: the system's), and no thread of its own. Then what was
   /// handed over becomes durable with the next call that waits; the lock file is left out.
   std::string vfs;

@@ -33,6 +33,7 @@ class Writer {
     std::chrono::milliseconds interval{250};  ///< longest time a change of post() waits
     bool own_thread = true;                   ///< otherwise call() writes what waits, in the caller's thread
     bool publish_too_early = false;           ///< see SqliteOptions
+    std::function<void(double)> timed{};      ///< told how long each commit took [s]
   };
   /// `committed` is called after each commit.
   Writer(const Options& options, Committed committed, Warn warn);
@@ -63,6 +64,7 @@ class Writer {
   const bool own_thread_, publish_too_early_;
   const Committed committed_;
   const Warn warn_;
+  const std::function<void(double)> timed_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Task> tasks_;     // guarded by mutex_

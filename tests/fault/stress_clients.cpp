@@ -83,6 +83,7 @@ std::vector<Line> soak(const Settings& s) {
   testing::Daemon daemon(s.seawayd, folder.path(), {}, daemon_arguments(s, folder.path()));
   daemon.start();
   const auto until = Clock::now() + std::chrono::duration<double>(s.seconds);
+  const auto warm = Clock::now() + std::chrono::duration<double>(0.2 * s.seconds);
   const auto settled = Clock::now() + std::chrono::duration<double>(0.3 * s.seconds);
   std::atomic<bool> over{false};
   std::vector<std::jthread> watchers;
@@ -101,8 +102,8 @@ std::vector<Line> soak(const Settings& s) {
     });
   client::JobClient client(daemon.address());
   std::vector<std::string> jobs;
-  double rss_before = 0, rss_sum = 0, wal = 0;
-  int descriptors_before = 0, rounds = 0, n = 0;
+  double before_sum = 0, rss_sum = 0, wal = 0;
+  int descriptors_before = 0, rounds = 0, n = 0, n_before = 0;
   const auto attempt = [](auto f) {
     try {
       f();
@@ -132,7 +133,10 @@ std::vector<Line> soak(const Settings& s) {
     std::error_code error;
     wal = std::max(wal, static_cast<double>(std::filesystem::file_size(folder / "data/seaway.db-wal", error)) / 1e6);
     if (Clock::now() < settled) {
-      rss_before = rss;
+      if (Clock::now() > warm) {
+        before_sum += rss;
+        ++n_before;
+      }
       descriptors_before = std::max(descriptors_before, descriptors(daemon.process().pid()));
     } else if (until - Clock::now() < std::chrono::duration<double>(0.1 * s.seconds)) {
       rss_sum += rss;
@@ -145,6 +149,7 @@ std::vector<Line> soak(const Settings& s) {
   watchers.clear();
   const double cpu = cpu_seconds(daemon.process().pid());
   daemon.terminate();
+  const double rss_before = before_sum / std::max(1, n_before);
   std::fprintf(stderr, "soak: %d submits, %.1f MB then, %.1f MB at the end\n", rounds, rss_before / 1e6, rss_sum / std::max(1, n) / 1e6);
   return {{"soak", "rss_drift", 100 * (rss_sum / std::max(1, n) / rss_before - 1), "%", 5, cpu},
           {"soak", "fd_drift", static_cast<double>(std::max(0, descriptors_after - descriptors_before)), "1", 0, cpu},

@@ -23,10 +23,13 @@ namespace fs = std::filesystem;
 void print(const Line& line, bool json) {
   const bool pass = line.pass();
   if (json) {
-    const nlohmann::ordered_json out{{"case", line.name}, {"quantity", line.quantity}, {"value", line.value},
-                                     {"unit", line.unit}, {"reference", line.reference}, {"tolerance", 0},
-                                     {"pass", pass}, {"cpu_s", line.cpu_s}};
+    nlohmann::ordered_json out{{"case", line.name}, {"quantity", line.quantity}, {"value", line.value},
+                               {"unit", line.unit}, {"reference", line.reference}, {"tolerance", 0},
+                               {"pass", pass}, {"cpu_s", line.cpu_s}};
+    if (line.beside) out["reference"] = nullptr;
     std::printf("%s\n", out.dump().c_str());
+  } else if (line.beside) {
+    std::printf("     %-8s %-20s %10.3f %-4s\n", line.name.c_str(), line.quantity.c_str(), line.value, line.unit.c_str());
   } else {
     std::printf("%-4s %-8s %-20s %10.3f %-4s (at %s %g)\n", pass ? "ok" : "FAIL", line.name.c_str(),
                 line.quantity.c_str(), line.value, line.unit.c_str(), line.at_least ? "least" : "most", line.reference);
@@ -89,7 +92,7 @@ int main(int argc, char** argv) {
                                                                                  {"bit_flips", bit_flips}, {"disk_full", disk_full},
                                                                                  {"simulation", simulation}, {"submit", submit}, {"list", list},
                                                                                  {"boot", boot}, {"shutdown", shutdown}, {"dead_peer", dead_peer},
-                                                                                 {"overhead", overhead}, {"slow_clients", slow_clients}, {"catch_up", catch_up}, {"soak", soak}};
+                                                                                 {"overhead", overhead}, {"requests", requests}, {"slow_clients", slow_clients}, {"catch_up", catch_up}, {"soak", soak}};
   CLI::App app{"seaway-stress: measures the promises of the service", "seaway-stress"};
   Settings s;
   std::vector<std::string> names;

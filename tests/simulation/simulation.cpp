@@ -319,7 +319,7 @@ class Simulation {
     attempts_.erase(attempts_.begin() + static_cast<std::ptrdiff_t>(index));
   }
 
-  void checkpoint(Attempt& a) { a.observer->put_checkpoint({a.at, "/run/" + a.uid + "/c" + std::to_string(a.at), 1, 1, 1}); }
+  void checkpoint(Attempt& a) { a.observer->put_checkpoint({a.at, "/run/" + a.uid + "/c" + std::to_string(a.at), 1, 1, 1}, 0); }
 
   bool is_quiet() {
     if (!attempts_.empty()) return false;

@@ -160,7 +160,7 @@ class FakeRun {
     last_checkpoint_ = Clock::now();
     const std::string path = options_.folder + "/" + std::to_string(flow_.sequence) + ".checkpoint";
     save(path, options_.case_digest, flow_);
-    observer_.on_checkpoint(path, flow_.sequence);
+    observer_.on_checkpoint(path, flow_.sequence, std::chrono::duration<double>(Clock::now() - last_checkpoint_).count());
     if (!before_.empty() && before_ != path) fs::remove(before_);
     before_ = std::exchange(newest_, path);
   }

@@ -20,6 +20,7 @@ using Folders = std::set<std::string>;
 /// Folders of the core from the bottom up, and which others each may use. All may use base.
 const std::map<std::string, Folders> core_rules = {
     {"core/base", {}},
+    {"core/analysis", {}},
     {"core/mesh", {}},
     {"core/waves", {}},
     {"core/hull", {}},
@@ -44,12 +45,16 @@ const std::map<std::string, Folders> outer_rules = {
     {"proto", {}},
     {"server/store", {"proto", "core/base"}},
     {"server/convert", {"proto", "core"}},
-    {"server/jobs", {"proto", "core", "server/store", "server/convert"}},
-    {"server/rpc", {"proto", "core", "server/store", "server/convert", "server/jobs"}},
-    {"server/http", {"proto", "core", "server/store", "server/convert", "server/jobs"}},
+    {"server/metrics", {"core/base"}},
+    {"server/reports", {"proto", "core", "server/convert"}},
+    {"server/jobs", {"proto", "core", "server/store", "server/convert", "server/metrics"}},
+    {"server/rpc",
+     {"proto", "core", "server/store", "server/convert", "server/jobs", "server/metrics",
+      "server/reports"}},
+    {"server/http", {"core/base"}},
     {"server",
-     {"proto", "core", "server/store", "server/convert", "server/jobs", "server/rpc",
-      "server/http"}},
+     {"proto", "core", "server/store", "server/convert", "server/jobs", "server/reports",
+      "server/rpc", "server/http", "server/metrics"}},
     {"client", {"proto"}},
 };
 
@@ -65,6 +70,8 @@ const std::vector<Restricted>& restricted_headers() {
        "p4est, MPI and OpenMP",
        {"core/mesh"}},
       {std::regex(R"(^sqlite3\w*\.h$)"), "SQLite", {"server/store"}},
+      {std::regex(R"(^prometheus/)"), "prometheus-cpp", {"server/metrics"}},
+      {std::regex(R"(^httplib\.h$)"), "cpp-httplib", {"server/http"}},
       {std::regex(R"(^(grpc|grpcpp|grpc\+\+)/|\.grpc\.pb\.h$)"), "gRPC", {"server/rpc", "client"}},
       {std::regex(R"(^yaml-cpp/)"), "yaml-cpp", {"proto"}},
       {std::regex(R"(^google/protobuf/|\.pb\.h$)"),

@@ -17,6 +17,7 @@ const std::vector<Case>& all_cases() {
       {"wave_train", Suite::quick, "a regular wave keeps height and speed over ten periods",
        run_wave_train},
       {"beach", Suite::quick, "what a damping zone sends back", run_beach},
+      {"irregular_sea", Suite::full, "a JONSWAP sea over 100 periods: height, peak, reflection", run_irregular_sea},
       {"dam_break", Suite::quick, "surge front of a column against Martin & Moyce", run_dam_break},
       {"pressure_scaling", Suite::quick, "iterations of the pressure solve, 20 k to 300 k cells",
        run_pressure_scaling},

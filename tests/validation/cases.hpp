@@ -42,6 +42,7 @@ void run_barge_heave_decay(const Context& context, Results& results);
 void run_flooding(const Context& context, Results& results);
 void run_wave_train(const Context& context, Results& results);
 void run_beach(const Context& context, Results& results);
+void run_irregular_sea(const Context& context, Results& results);
 void run_dam_break(const Context& context, Results& results);
 void run_pressure_scaling(const Context& context, Results& results);
 void run_mapping(const Context& context, Results& results);

@@ -14,6 +14,8 @@
 namespace seaway::convert {
 namespace {
 
+using ::testing::HasSubstr;
+
 v1::Case small() {
   v1::Case m;
   yaml::read_file(SEAWAY_SOURCE_DIR "/tests/e2e/small.yaml", m);
@@ -111,6 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"mesh.base_cell_m", [](v1::Case& m) { m.mutable_mesh()->set_base_cell_m(nan_value); }},
         Mistake{"wave", [](v1::Case& m) { m.mutable_wave()->clear_regular(); }},
         Mistake{"wave.regular", [](v1::Case& m) { m.mutable_wave()->mutable_regular()->set_length_m(3); }},
+        Mistake{"wave.regular", [](v1::Case& m) { m.mutable_wave()->mutable_regular()->set_frequency_hz(0.7); }},
         Mistake{"wave.regular.height_m", [](v1::Case& m) { m.mutable_wave()->mutable_regular()->set_height_m(-1); }},
         Mistake{"wave.regular.heading_deg", [](v1::Case& m) { m.mutable_wave()->mutable_regular()->set_heading_deg(180); }},
         Mistake{"hull", [](v1::Case& m) { m.mutable_hull()->clear_box(); }},
@@ -149,6 +152,72 @@ INSTANTIATE_TEST_SUITE_P(
                 [](v1::Case& m) { m.mutable_cascade()->mutable_stages(2)->mutable_mapping()->set_k(120); }},
         Mistake{"outputs.gauges[1].name",
                 [](v1::Case& m) { m.mutable_outputs()->add_gauges()->set_name("bow"); }}));
+
+TEST(ConvertCase, ReadsSeasAndWritesThemBack) {
+  v1::Case m = small();
+  auto& sea = *m.mutable_wave()->mutable_irregular();
+  sea.mutable_spectrum()->set_shape(v1::WaveSpectrum::SHAPE_JONSWAP);
+  sea.mutable_spectrum()->set_peak_period_s(1.4);
+  sea.set_significant_height_m(0.05);
+  sea.set_seed(7);
+  sea.set_heading_deg(-90);
+  const sim::Case core = to_core(m);
+  EXPECT_EQ(core.wave.kind, sim::Wave::Kind::irregular);
+  EXPECT_EQ(core.wave.spectrum.components, 100);
+  EXPECT_EQ(core.wave.spectrum.peak_enhancement, 3.3);
+  EXPECT_DOUBLE_EQ(core.wave.heading, -pi / 2);
+  const auto full = to_proto(core).wave().irregular();
+  EXPECT_EQ(full.seed(), 7u);
+  EXPECT_EQ(full.spectrum().shape(), v1::WaveSpectrum::SHAPE_JONSWAP);
+  EXPECT_EQ(full.spectrum().upper_cutoff(), 2.5);
+  EXPECT_EQ(full.significant_height_m(), 0.05);
+  auto& group = *m.mutable_wave()->mutable_focused();
+  group.mutable_spectrum()->set_shape(v1::WaveSpectrum::SHAPE_PIERSON_MOSKOWITZ);
+  group.mutable_spectrum()->set_peak_period_s(1.4);
+  group.set_amplitude_m(-0.04);
+  group.set_focus_time_s(8);
+  EXPECT_EQ(to_proto(to_core(m)).wave().focused().amplitude_m(), -0.04);
+  EXPECT_EQ(to_core(m).wave.time, 8);
+  auto& series = *m.mutable_wave()->mutable_time_series();
+  series.set_file("gauge.csv");
+  series.set_lower_cutoff_hz(0.3);
+  series.set_upper_cutoff_hz(2);
+  EXPECT_EQ(to_core(m).wave.file, "gauge.csv");
+  EXPECT_EQ(to_proto(to_core(m)).wave().time_series().upper_cutoff_hz(), 2);
+}
+
+TEST(ConvertCase, RefusesSeasThatSayTooMuchOrTooLittle) {
+  const auto why = [](const std::function<void(v1::IrregularWave&)>& change) {
+    v1::Case m = small();
+    auto& sea = *m.mutable_wave()->mutable_irregular();
+    sea.mutable_spectrum()->set_shape(v1::WaveSpectrum::SHAPE_BRETSCHNEIDER);
+    sea.mutable_spectrum()->set_peak_period_s(1.4);
+    sea.set_significant_height_m(0.05);
+    change(sea);
+    try {
+      to_core(m);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(why([](auto&) {}), "accepted");
+  EXPECT_THAT(why([](auto& s) { s.mutable_spectrum()->clear_shape(); }), HasSubstr("wave.irregular.spectrum.shape: is missing"));
+  EXPECT_THAT(why([](auto& s) { s.mutable_spectrum()->set_shape(v1::WaveSpectrum::SHAPE_PIERSON_MOSKOWITZ); }),
+              HasSubstr("wave.irregular.significant_height_m: is fixed by the peak period"));
+  EXPECT_THAT(why([](auto& s) { s.clear_significant_height_m(); }), HasSubstr("significant_height_m: is missing"));
+  EXPECT_THAT(why([](auto& s) { s.mutable_spectrum()->set_peak_enhancement(2); }), HasSubstr("has no effect on this spectrum"));
+  EXPECT_THAT(why([](auto& s) { s.mutable_spectrum()->clear_peak_period_s(); }), HasSubstr("peak_period_s: is missing"));
+  EXPECT_THAT(why([](auto& s) { s.mutable_spectrum()->set_component_count(9); }), HasSubstr("component_count"));
+  EXPECT_THAT(why([](auto& s) { s.set_heading_deg(45); }), HasSubstr("not possible in a section"));
+}
+
+TEST(ConvertCase, AFrequencyIsAPeriod) {
+  v1::Case m = small();
+  m.mutable_wave()->mutable_regular()->clear_period_s();
+  m.mutable_wave()->mutable_regular()->set_frequency_hz(0.8);
+  EXPECT_DOUBLE_EQ(to_core(m).wave.period, 1.25);
+}
 
 TEST(ConvertCase, RefusesOpenAndFlatPolygons) {
   v1::Case m = small();

@@ -118,6 +118,56 @@ TEST_F(QueueTest, FilesComeWithTheCaseThatNamesThem) {
   EXPECT_THAT(why_refused(request), ::testing::HasSubstr("named nowhere"));
 }
 
+TEST_F(QueueTest, TheSameCaseIsCheckedOnce) {
+  int checks = 0;
+  Solver counting = fake_solver();
+  counting.check = [&checks, check = counting.check](const sim::Case& c) { ++checks; return check(c); };
+  Queue queue(QueueLimits{}, counting, workspace_, *store_, [] {}, [](const auto&) {}, [](const auto&) {});
+  const auto request = create_request(1, small_case());
+  const v1::CaseReport first = queue.validate(request.case_(), request.files());
+  EXPECT_EQ(queue.submit(request).report.SerializeAsString(), first.SerializeAsString());
+  EXPECT_EQ(queue.submit(request).report.SerializeAsString(), first.SerializeAsString());
+  EXPECT_EQ(checks, 1);
+  queue.submit(create_request(2, small_case(0.7)));
+  EXPECT_EQ(checks, 2) << "another case";
+  auto twice = request;  // the digest of a case does not know of this
+  for (int i = 0; i < 2; ++i) twice.add_files()->set_name("a");
+  EXPECT_THROW(queue.submit(twice), convert::InputError);
+  v1::Case broken = small_case();
+  broken.set_title("broken");
+  for (int i = 0; i < 2; ++i) EXPECT_THROW(queue.submit(create_request(3, broken)), convert::InputError) << "known to be wrong";
+}
+
+TEST_F(QueueTest, ForgetsTheCheckThatWasNotAskedForTheLongest) {
+  ReportCache cache(2);
+  v1::CaseReport report;
+  for (const char* digest : {"a", "b"}) cache.keep(digest, report);
+  EXPECT_TRUE(cache.find("a"));
+  cache.keep("c", report);
+  EXPECT_TRUE(cache.find("a"));
+  EXPECT_FALSE(cache.find("b"));
+  EXPECT_TRUE(cache.find("c"));
+}
+
+TEST_F(QueueTest, FilesOfRunningJobsAreNotSwept) {
+  v1::Case m = small_case();
+  m.mutable_hull()->mutable_offsets_section()->set_file("ship.csv");
+  auto request = create_request(1, m);
+  auto& file = *request.add_files();
+  file.set_name("ship.csv");
+  file.set_content("1,2\n");
+  start(5);
+  const std::string uid = queue_.submit(request).job.uid;
+  ASSERT_TRUE(wait_for_job(*store_, uid, [](const store::Job& job) { return job.last_sequence > 0; })) << "it has read its file";
+  const std::string path = workspace_.keep_file("1,2\n");
+  std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() - std::chrono::hours(2));
+  EXPECT_EQ(queue_.sweep_files(std::chrono::hours(1)), 0);
+  EXPECT_TRUE(std::filesystem::exists(path));
+  *allowed_ = no_limit;
+  ASSERT_TRUE(wait_for_state(*store_, uid, State::succeeded));
+  EXPECT_EQ(queue_.sweep_files(std::chrono::hours(1)), 1);
+}
+
 TEST_F(QueueTest, IsLimited) {
   for (int i = 0; i < 3; ++i) submit(i);
   try {

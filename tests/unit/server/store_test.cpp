@@ -12,6 +12,7 @@
 #include "server/store/chunk.hpp"
 #include "server/store/database.hpp"
 #include "server/store/migrations.hpp"
+#include "server/store/sqlite_rows.hpp"
 #include "server/store/sqlite_store.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -343,6 +344,21 @@ TEST(JobStates, OnlyTheMovesOfTheTableExist) {
   EXPECT_EQ(moves, 12);
   for (const State s : {State::succeeded, State::failed, State::cancelled})
     for (int b = 1; b <= 7; ++b) EXPECT_FALSE(may_move(s, static_cast<State>(b)));
+}
+
+TEST(SqliteMemory, ManyFiltersKeepNoStatements) {
+  TempFolder folder;
+  Database db(folder / "jobs.db", Database::Role::writer);
+  migrate(db);
+  rows::list(db, {});
+  const std::size_t before = db.kept();
+  for (int n = 1; n <= 64; ++n) {
+    ListQuery query;
+    for (int i = 0; i < n; ++i) query.labels["k" + std::to_string(i)] = "v";
+    if (n % 2 == 0) query.states = {State::held, State::queued};
+    EXPECT_TRUE(rows::list(db, query).empty());
+  }
+  EXPECT_EQ(db.kept(), before);
 }
 
 }  // namespace

@@ -24,6 +24,21 @@ TEST(Workspace, KeepsFilesUnderTheirDigest) {
   EXPECT_EQ(fs::file_size(path), 3u);
 }
 
+TEST(Workspace, SweepsFilesThatNobodyHasAskedForLately) {
+  TempFolder folder;
+  const Workspace workspace(folder.path());
+  const std::string old = workspace.keep_file("old"), used = workspace.keep_file("used"), again = workspace.keep_file("again"),
+                    fresh = workspace.keep_file("fresh"), part = folder / "files/0123.Ab12Cd";
+  std::ofstream(part) << "a crash has left this";
+  for (const std::string& file : {old, used, again, part}) fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(2));
+  EXPECT_EQ(workspace.keep_file("again"), again);
+  EXPECT_EQ(workspace.sweep_files(std::chrono::hours(1), {fs::path(used).filename().string()}), 2);
+  for (const auto& [file, stays] : {std::pair{old, false}, {part, false}, {used, true}, {again, true}, {fresh, true}})
+    EXPECT_EQ(fs::exists(file), stays) << file;
+  EXPECT_EQ(workspace.keep_file("old"), old) << "and it comes again";
+  EXPECT_EQ(fs::file_size(old), 3u);
+}
+
 TEST(Workspace, RemovesWhatTheStoreDoesNotKnow) {
   TempFolder folder;
   const Workspace workspace(folder.path());

@@ -42,7 +42,7 @@ class Keeper : public sim::RunObserver {
     record_.stages.push_back({r.info.name, r.info.cells, r.steps, r.info.time, r.end_time, r.cpu_s,
                               r.has_mapping ? r.mapping.cpu_s : 0, r.converged});
   }
-  void on_checkpoint(const std::string&, std::int64_t) override {
+  void on_checkpoint(const std::string&, std::int64_t, double) override {
     record_.total_cpu_s = process_cpu_seconds() - cpu_before_;
     save(record_, file_);
   }

@@ -42,5 +42,34 @@ TEST_P(Bottom, SurfaceJustAboveItGoesOnLevel) {
   EXPECT_GT(over_the_bottom, 20);
 }
 
+// Three cells under the middle of the bottom hold half a per cent of air, and the hull is full of air from the step
+// before: the water still goes on into the hull.
+TEST(HullExtension, TraceOfAirUnderTheBottomStaysATrace) {
+  const BargeTank tank;
+  const HullMask<2> mask = tank.mask_at(BargeTank::afloat(0));
+  const auto& window = mask.window();
+  std::vector<double> vof(window.size(), 1.0);
+  int traces = 0, inside = 0;
+  window.for_cells([&](const IVec<2>& i) {
+    const auto at = static_cast<std::size_t>(window.at(i));
+    const auto below = at - static_cast<std::size_t>(window.stride(1));
+    const Vec2 x = window.cell_centre(i);
+    if (mask.fluid_fraction()[at] < 0.5 || x[1] > 0) vof[at] = 0;
+    if (std::abs(x[0]) < 0.01 && x[1] < 0 && mask.fluid_fraction()[at] < 0.5 && mask.fluid_fraction()[below] >= 0.5) {
+      vof[below] = 0.995;
+      ++traces;
+    }
+  });
+  ASSERT_GE(traces, 3);
+  HullExtension<2>().extend_vof(mask, vof);
+  window.for_cells([&](const IVec<2>& i) {
+    const auto at = static_cast<std::size_t>(window.at(i));
+    if (mask.fluid_fraction()[at] >= 0.5 || mask.now().phi[at] < -window.h()[1] || window.cell_centre(i)[1] > -0.02) return;
+    EXPECT_GE(vof[at], 0.99) << window.cell_centre(i).transpose();
+    ++inside;
+  });
+  EXPECT_GT(inside, 40);
+}
+
 }  // namespace
 }  // namespace seaway::flow

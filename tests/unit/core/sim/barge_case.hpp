@@ -79,7 +79,7 @@ class Keeper : public RunObserver {
     if (stop_after_ > 0 && static_cast<int>(samples.size()) >= stop_after_) stop.request_stop();
   }
   void on_stage_finished(const StageResult& r) override { finished.push_back(r); }
-  void on_checkpoint(const std::string& path, std::int64_t sequence) override {
+  void on_checkpoint(const std::string& path, std::int64_t sequence, double) override {
     checkpoints.emplace_back(path, sequence);
   }
   void on_artifact(const std::string&, const std::string& path, const std::string&) override {
