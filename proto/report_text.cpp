@@ -108,6 +108,13 @@ std::string stage_table(const google::protobuf::RepeatedPtrField<v1::StageReport
     return done(s, number(s.mean_pressure_iterations(), "%.1f") + number(s.max_pressure_iterations(), " (max %.0f)"));
   }));
   rows.push_back(row("volume drift", stages, [&](const S& s) { return done(s, number(s.volume_drift(), "%.1e")); }));
+  if (std::any_of(stages.begin(), stages.end(), [](const S& s) { return s.wall_layers_size() > 0; }))
+    rows.push_back(row("y+ at the hull", stages, [](const S& s) {
+      return s.wall_layers_size() > 0 ? number(s.wall_layers(0).y_plus_mean(), "%.0f") +
+                                            number(s.wall_layers(0).y_plus_min(), " (%.0f") +
+                                            number(s.wall_layers(0).y_plus_max(), " - %.0f)")
+                                      : std::string("-");
+    }));
   rows.push_back(row("roll amplitude", stages, [](const S& s) { return amplitude(s, "roll"); }));
   rows.push_back(row("heave amplitude", stages, [](const S& s) { return amplitude(s, "heave"); }));
   return align(rows);

@@ -195,7 +195,14 @@ void mirror(const Block<Dim>& block, int layers, int face_axis, const Boundaries
             const T* inside = out + ScratchShape<Dim>::at(at);
             at[a] = side == 0 ? -layer : n - 1 + layer;
             T* ghost = out + ScratchShape<Dim>::at(at);
-            for (int i = 0; i < count; ++i) ghost[i] = inside[i];
+            const auto& wall = boundaries ? boundaries->wall[static_cast<std::size_t>(a)][static_cast<std::size_t>(side)]
+                                          : SideWall<Dim>{};
+            if (face_axis >= 0 && wall.no_slip) {
+              const T twice = static_cast<T>(2 * wall.velocity[face_axis]);
+              for (int i = 0; i < count; ++i) ghost[i] = twice - inside[i];
+            } else {
+              for (int i = 0; i < count; ++i) ghost[i] = inside[i];
+            }
           }
         }
       });

@@ -1,7 +1,8 @@
 // The ghost exchange: copies a block and `layers` (1 or 2) layers around it into a Scratch.
 //   same level        copied (parents must hold restricted values, core/field/restrict.hpp)
 //   coarser           linear interpolation from the coarse level with limited (minmod) slopes
-//   outside the tank  mirrored; face values normal to the boundary as `BoundaryKind` says
+//   outside the tank  mirrored; face values normal to the boundary as `BoundaryKind` says, those along it odd
+//                     about the wall's velocity where the fluid sticks to it
 // A kernel that needs less than the whole surroundings says so by a Neighbourhood: what it leaves out is
 // not filled. Thread-safe: reads fields, writes its own scratch.
 #pragma once
@@ -18,9 +19,17 @@ enum class BoundaryKind {
   open,   ///< pressure boundary: zero gradient
 };
 
+/// What the velocity along a side of the tank does there.
+template <int Dim>
+struct SideWall {
+  bool no_slip = false;                    ///< false: zero gradient
+  Vec<Dim> velocity = Vec<Dim>::Zero();    ///< no_slip: of the wall along itself [m/s]
+};
+
 template <int Dim>
 struct Boundaries {
   std::array<std::array<BoundaryKind, 2>, Dim> kind{};  ///< [axis][side], default fixed
+  std::array<std::array<SideWall<Dim>, 2>, Dim> wall{};
 };
 
 /// Neighbours to gather from, one bit an entry of Block::neighbour (the block itself always counts).

@@ -143,19 +143,6 @@ void Advection<Dim>::update_vof(const FlowState<Dim>& state, int axis, double dt
   field::restrict_cells<double, Dim>(forest_, vof_new_);
 }
 
-namespace {
-
-/// Upwind value at the lower boundary of a staggered control volume: u0 | u1 are beside it, um and u2 beyond.
-inline double upwind(double um, double u0, double u1, double u2, double flux, double courant) {
-  const double middle = u1 - u0;
-  const double donor_side = flux > 0 ? u0 - um : u2 - u1;
-  const double product = middle * donor_side;
-  const double slope = product > 0 ? 2 * product / (middle + donor_side) : 0.0;
-  return flux > 0 ? u0 + 0.5 * (1 - courant) * slope : u1 - 0.5 * (1 - courant) * slope;
-}
-
-}  // namespace
-
 template <int Dim>
 void Advection<Dim>::update_momentum(const FlowState<Dim>& state, int axis, double dt) {
   using Shape = ScratchShape<Dim>;
@@ -168,6 +155,7 @@ void Advection<Dim>::update_momentum(const FlowState<Dim>& state, int axis, doub
     const bool pure = planes_.surroundings(b) != BlockPhase::mixed;
     Scratch<double, Dim> w, old_rho, new_rho, mass_flux;
     Scratch<double, Dim> flux, momentum, velocity;
+    const bool turbulent = state.turbulent();
     field::gather_faces<double, Dim>(forest_, state.w, axis, b, 1, boundaries_, w, field::face_neighbours<Dim>());
     if (!pure) {
       field::gather_cells<double, Dim>(forest_, state.vof, b, 2, old_rho, field::around_axis<Dim>(axis));
@@ -178,6 +166,11 @@ void Advection<Dim>::update_momentum(const FlowState<Dim>& state, int axis, doub
         old_rho.data[i] = fluids_.rho_air + jump * old_rho.data[i];
         new_rho.data[i] = fluids_.rho_air + jump * new_rho.data[i];
       }
+    }
+    if (turbulent) {
+      const SweepFluxes<Dim> fluxes{axis, pure, cw, w, mass_flux, old_rho, new_rho};
+      sweep_scalar<Dim>(forest_, b, fluxes, state.tke, carried_start_[0], carried_new_[0]);
+      sweep_scalar<Dim>(forest_, b, fluxes, state.epsilon, carried_start_[1], carried_new_[1]);
     }
     for (int a = 0; a < Dim; ++a) {
       const int A = Shape::stride(a);
@@ -248,12 +241,19 @@ void Advection<Dim>::update_momentum(const FlowState<Dim>& state, int axis, doub
     }
   });
   field::restrict_faces<double, Dim>(forest_, u_new_);
+  for (auto& f : carried_new_)
+    if (state.turbulent()) field::restrict_cells<double, Dim>(forest_, f);
 }
 
 template <int Dim>
 void Advection<Dim>::advance(FlowState<Dim>& state, double dt, std::int64_t step) {
   vof_start_ = state.vof;
   u_start_ = state.u;
+  if (state.turbulent()) {
+    carried_start_ = {state.tke, state.epsilon};
+    carried_new_[0].data().resize(state.tke.data().size());
+    carried_new_[1].data().resize(state.tke.data().size());
+  }
   for (int sweep = 0; sweep < Dim; ++sweep) {
     const int axis = static_cast<int>((sweep + step) % Dim);
     planes_.reconstruct(state.vof);
@@ -263,6 +263,10 @@ void Advection<Dim>::advance(FlowState<Dim>& state, double dt, std::int64_t step
     update_momentum(state, axis, dt);
     std::swap(state.vof, vof_new_);
     std::swap(state.u, u_new_);
+    if (state.turbulent()) {
+      std::swap(state.tke, carried_new_[0]);
+      std::swap(state.epsilon, carried_new_[1]);
+    }
   }
 }
 

@@ -7,9 +7,11 @@
 // with m, m' the averaged cell masses before and after the sweep, F the mass flux, u0 the velocity before the
 // sub-step; u_upwind is second order with the van Leer limiter [vanleer1979]. A uniform velocity stays uniform
 // exactly. At coarse-fine faces the fine fluxes count and ghosts are interpolated (first order).
+// Turbulent energy and dissipation, where the state has them, go with the same mass fluxes (scalar_sweep.hpp).
 #pragma once
 
 #include "core/flow/interface_planes.hpp"
+#include "core/flow/scalar_sweep.hpp"
 
 namespace seaway::flow {
 
@@ -44,6 +46,7 @@ class Advection {
   FaceField<double, Dim> swept_;
   CellField<double, Dim> vof_new_, vof_start_;
   FaceField<double, Dim> u_start_, u_new_;
+  std::array<CellField<double, Dim>, 2> carried_start_, carried_new_;  ///< tke, epsilon; empty without them
   FluxVisitor visitor_;
 };
 

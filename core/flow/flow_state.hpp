@@ -28,6 +28,9 @@ struct FlowState {
   CellField<double, Dim> p;    ///< pressure [Pa], 0 at the lid
   FaceField<double, Dim> u;    ///< fluid velocity normal to the face [m/s], extended into the hull
   FaceField<double, Dim> w;    ///< velocity of fluid and hull through the full face, solenoidal [docs/numerics.md (1)]
+  CellField<double, Dim> tke;      ///< turbulent kinetic energy [m2/s2]; empty without a turbulence model
+  CellField<double, Dim> epsilon;  ///< its dissipation [m2/s3]; empty without a turbulence model
+  bool turbulent() const { return !tke.data().empty(); }
 };
 
 }  // namespace seaway::flow

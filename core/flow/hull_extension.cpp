@@ -213,6 +213,58 @@ void HullExtension<Dim>::level_off(const HullWindow<Dim>& window, std::vector<do
 }
 
 template <int Dim>
+void HullExtension<Dim>::extend_scalars(const HullMask<Dim>& mask, std::array<std::vector<double>*, 2> scalars,
+                                        std::array<double, 2> deep) {
+  const HullWindow<Dim>& window = mask.window();
+  const auto& theta = mask.fluid_fraction();
+  const auto& phi = mask.now().phi;
+  const auto& spaces = mask.now().space;
+  const auto around = neighbours<Dim>(window);
+  layer_.assign(window.size(), -1);
+  window.for_cells([&](const IVec<Dim>& i) {
+    const auto at = static_cast<std::size_t>(window.at(i));
+    if (theta[at] >= 0.5) layer_[at] = 0;
+  });
+  IVec<Dim> upper = window.n();
+  for (int& u : upper) --u;
+  for (int layer = 1; layer <= extension_layers; ++layer) {
+    list_.clear();
+    next_.clear();
+    for_box<Dim>(filled<Dim>(1), upper, [&](const IVec<Dim>& i) {
+      const int at = window.at(i);
+      const double depth = phi[static_cast<std::size_t>(at)];
+      if (layer_[static_cast<std::size_t>(at)] != -1 || depth < -(layer + 2) * window.h().maxCoeff()) return;
+      const Vec<Dim> gradient = distance_gradient<Dim>(window, phi, at);
+      double sum[2] = {0, 0}, weight = 0;
+      for (const bool only_visible : {true, false}) {
+        for (const auto& n : around) {
+          const auto from = static_cast<std::size_t>(at + n.index);
+          if (layer_[from] < 0 || layer_[from] >= layer || (only_visible && !visible<Dim>(window, n, gradient)) ||
+              (!spaces.empty() && apart(spaces[static_cast<std::size_t>(at)], spaces[from])))
+            continue;
+          for (std::size_t s = 0; s < 2; ++s) sum[s] += (*scalars[s])[from];
+          weight += 1;
+        }
+        if (weight > 0) break;
+      }
+      if (weight == 0) return;
+      list_.push_back(at);
+      for (const double s : sum) next_.push_back(s / weight);
+    });
+    for (std::size_t k = 0; k < list_.size(); ++k) {
+      const auto at = static_cast<std::size_t>(list_[k]);
+      for (std::size_t s = 0; s < 2; ++s) (*scalars[s])[at] = next_[2 * k + s];
+      layer_[at] = static_cast<signed char>(layer);
+    }
+  }
+  window.for_cells([&](const IVec<Dim>& i) {
+    const auto at = static_cast<std::size_t>(window.at(i));
+    for (std::size_t s = 0; s < 2; ++s)
+      if (layer_[at] < 0) (*scalars[s])[at] = deep[s];
+  });
+}
+
+template <int Dim>
 void HullExtension<Dim>::extend_velocity(const HullMask<Dim>& mask, int axis, const motion::Twist<Dim>& twist,
                                          std::vector<double>& u) {
   const HullWindow<Dim>& window = mask.window();

@@ -21,6 +21,11 @@ class HullExtension {
   /// of mixed neighbours evaluated there, deeper layers from means.
   void extend_vof(const HullMask<Dim>& mask, std::vector<double>& vof);
 
+  /// Overwrites scalars (window arrays) in cells with fluid_fraction < 1/2 by means of the cells around them that
+  /// lie in the fluid (zero gradient); deeper than the layers: `deep`.
+  void extend_scalars(const HullMask<Dim>& mask, std::array<std::vector<double>*, 2> scalars,
+                      std::array<double, 2> deep);
+
   /// Overwrites u (window array of the axis) in closed faces; deeper than the layers: the wall's velocity.
   /// Nearly closed faces (aperture < 0.2) keep their value within the spread of their neighbours.
   void extend_velocity(const HullMask<Dim>& mask, int axis, const motion::Twist<Dim>& twist,

@@ -19,8 +19,8 @@ constexpr double cells_about_hull = 4;
 
 template <int Dim>
 HullMask<Dim>::HullMask(const Forest<Dim>& forest, std::shared_ptr<const hull::Hull<Dim>> hull,
-                        const motion::RigidBody<Dim>& body, int clearance, Walls walls)
-    : hull_(std::move(hull)), body_(body), window_(forest), clearance_(clearance), walls_(walls) {}
+                        const motion::RigidBody<Dim>& body, int clearance, Walls walls, bool fixed)
+    : hull_(std::move(hull)), body_(body), window_(forest, fixed), clearance_(clearance), walls_(walls) {}
 
 template <int Dim>
 hull::OrientedBox<Dim> HullMask<Dim>::box_at(const HullGeometry<Dim>& g, const Vec<Dim>& centre) const {
@@ -98,11 +98,14 @@ void HullMask<Dim>::find_apertures(HullGeometry<Dim>& g, bool with_solid_faces) 
       const auto& patch = *patches[static_cast<std::size_t>(t)];
       IVec<Dim> upper = tile.at;
       for (int& u : upper) u += nb;  // the faces on the tile's upper side belong to the next one
+      const bool last = window_.at_tank_side(tile, axis, 1), first = window_.at_tank_side(tile, axis, 0);
+      if (last) ++upper[axis];
       for_box<Dim>(tile.at, upper, [&](const IVec<Dim>& i) {
         const auto at = static_cast<std::size_t>(window_.at(i));
         const Vec<Dim> x = window_.face_centre(i, axis);
         double phi = g.phi[at];
-        if (i[axis] > 0) phi = 0.5 * (phi + g.phi[at - static_cast<std::size_t>(window_.stride(axis))]);
+        if (last && i[axis] == tile.at[axis] + nb) phi = g.phi[at - static_cast<std::size_t>(window_.stride(axis))];
+        else if (i[axis] > 0 && !(first && i[axis] == tile.at[axis])) phi = 0.5 * (phi + g.phi[at - static_cast<std::size_t>(window_.stride(axis))]);
         g.arm[a][at] = x - g.pose.cog;
         if (phi < -far) {
           g.aperture[a][at] = 0;
@@ -247,7 +250,7 @@ linear::RigidRows<Dim> HullMask<Dim>::rigid_rows(const HullGeometry<Dim>& g) con
       cut = cut || lo < 1 || hi < 1;
       any_open = any_open || lo > 0 || hi > 0;
     }
-    if (!cut || !any_open) return;
+    if (!cut || !any_open || window_.tile_of(i) < 0) return;
     Eigen::Matrix<double, linear::n_dof<Dim>, 1> j = Eigen::Matrix<double, linear::n_dof<Dim>, 1>::Zero();
     for (int axis = 0; axis < Dim; ++axis) {
       const auto ax = static_cast<std::size_t>(axis);

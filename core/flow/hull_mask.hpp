@@ -38,9 +38,11 @@ struct HullGeometry {
 template <int Dim>
 class HullMask {
  public:
-  /// `clearance`: width of the window around the hull's bounds, in finest cells.
+  /// `clearance`: width of the window around the hull's bounds, in finest cells. `fixed`: an obstacle that never
+  /// moves and may reach through the tank's sides.
   HullMask(const Forest<Dim>& forest, std::shared_ptr<const hull::Hull<Dim>> hull,
-           const motion::RigidBody<Dim>& body, int clearance = 6, Walls walls = Walls::resolved);
+           const motion::RigidBody<Dim>& body, int clearance = 6, Walls walls = Walls::resolved,
+           bool fixed = false);
 
   /// Geometry at the pose of the new time and at the pose half a step later. Throws as HullWindow::cover.
   void update(const motion::Pose<Dim>& now, const motion::Pose<Dim>& half_step);

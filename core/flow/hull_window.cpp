@@ -57,6 +57,7 @@ bool HullWindow<Dim>::cover(const Vec<Dim>& lower, const Vec<Dim>& upper, const 
   tiles_.clear();
   tile_at_.clear();
   missing_.clear();
+  has_gaps_ = false;
   for_box<Dim>(filled<Dim>(0), count, [&](const IVec<Dim>& i) {
     IVec<Dim> coord = i, at = i;
     for (int a = 0; a < Dim; ++a) {
@@ -72,8 +73,12 @@ bool HullWindow<Dim>::cover(const Vec<Dim>& lower, const Vec<Dim>& upper, const 
     Vec<Dim> x;
     for (int a = 0; a < Dim; ++a) x[a] = forest_.grid().lower[a] + (coord[a] + 0.5) * nb * h_[a];
     tile_at_.push_back(-1);
-    missing_.push_back(x);
+    const auto& grid = forest_.grid();
+    const bool outside = (x.array() < grid.lower.array()).any() || (x.array() > grid.upper.array()).any();
+    if (outside && through_sides_) has_gaps_ = true;
+    else missing_.push_back(x);
   });
+  has_gaps_ = has_gaps_ || !missing_.empty();
   check_missing(touches);
   return true;
 }
@@ -90,17 +95,26 @@ int HullWindow<Dim>::tile_of(const IVec<Dim>& cell) const {
 }
 
 template <int Dim>
+bool HullWindow<Dim>::at_tank_side(const Tile& tile, int axis, int side) const {
+  const auto& block = forest_.block(tile.block);
+  return through_sides_ &&
+         block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))] == mesh::no_block;
+}
+
+template <int Dim>
 std::int64_t HullWindow<Dim>::global_cell(const IVec<Dim>& i) const {
   constexpr int nb = BlockShape<Dim>::n;
   IVec<Dim> cell{};
   for (int a = 0; a < Dim; ++a) cell[a] = i[a] % nb;
-  const Tile& tile = tiles_[static_cast<std::size_t>(tile_of(i))];
+  const int t = tile_of(i);
+  if (t < 0) return -1;
+  const Tile& tile = tiles_[static_cast<std::size_t>(t)];
   return static_cast<std::int64_t>(tile.block) * BlockShape<Dim>::cells + offset<Dim>(cell, cell_strides<Dim>());
 }
 
 template <int Dim>
 void HullWindow<Dim>::load_cells(const CellField<double, Dim>& f, std::vector<double>& out) const {
-  if (missing_.empty()) out.resize(size_);
+  if (!has_gaps_) out.resize(size_);
   else out.assign(size_, 0.0);
   for (const Tile& tile : tiles_) {
     const double* source = f.block(tile.block);
@@ -127,7 +141,7 @@ void HullWindow<Dim>::store_cells(const std::vector<double>& in, CellField<doubl
 template <int Dim>
 template <class T>
 void HullWindow<Dim>::load_faces(const FaceField<T, Dim>& f, int axis, std::vector<double>& out) const {
-  if (missing_.empty()) out.resize(size_);
+  if (!has_gaps_) out.resize(size_);
   else out.assign(size_, 0.0);
   const int count = BlockShape<Dim>::n + (axis == 0);
   for (const Tile& tile : tiles_) {

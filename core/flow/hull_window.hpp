@@ -27,7 +27,9 @@ inline bool apart(signed char a, signed char b) { return a != b && a >= 0 && b >
 template <int Dim>
 class HullWindow {
  public:
-  explicit HullWindow(const Forest<Dim>& forest) : forest_(forest) {}
+  /// `through_sides`: the hull may reach out of the tank, as a fixed obstacle does; otherwise cover() throws.
+  explicit HullWindow(const Forest<Dim>& forest, bool through_sides = false)
+      : forest_(forest), through_sides_(through_sides) {}
 
   /// Whether the hull may touch a box (earth axes, [m]).
   using Touches = std::function<bool(const Vec<Dim>& lower, const Vec<Dim>& upper)>;
@@ -66,7 +68,10 @@ class HullWindow {
   const std::vector<Tile>& tiles() const { return tiles_; }
   /// Index into tiles() of the one that holds a cell (clamped to the window); -1 if there is none.
   int tile_of(const IVec<Dim>& cell) const;
-  /// Index block * cells + cell in a field of the forest.
+  /// Whether the faces on a side (0: lower, 1: upper) of a tile lie on the tank's own side, and the hull may reach
+  /// through it.
+  bool at_tank_side(const Tile& tile, int axis, int side) const;
+  /// Index block * cells + cell in a field of the forest; -1 where there is no tile.
   std::int64_t global_cell(const IVec<Dim>& i) const;
 
   void load_cells(const CellField<double, Dim>& f, std::vector<double>& out) const;
@@ -93,13 +98,15 @@ class HullWindow {
   void check_missing(const Touches& touches) const;
 
   const Forest<Dim>& forest_;
+  bool through_sides_;
   IVec<Dim> first_block_{}, n_{};
   std::array<int, Dim> stride_{};
   std::size_t size_ = 0;
   Vec<Dim> origin_ = Vec<Dim>::Zero(), h_ = Vec<Dim>::Ones();
   std::vector<Tile> tiles_;
   std::vector<int> tile_at_;       ///< dense, by block position in the window; -1: no tile
-  std::vector<Vec<Dim>> missing_;  ///< middles of the blocks without a tile
+  std::vector<Vec<Dim>> missing_;  ///< middles of the blocks without a tile that must stay clear of the hull
+  bool has_gaps_ = false;          ///< some blocks have no tile
   IVec<Dim> blocks_{};
 };
 

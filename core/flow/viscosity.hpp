@@ -1,7 +1,11 @@
-// Molecular stress, explicit:  u += dt / rho_f  div( mu grad u ),  mu = rho nu of the mixture, constant over
-// each staggered volume. The hull and the tank's walls slip: the velocity extended into the hull
-// carries no shear. Its limit dt < h^2 / (2 Dim nu) lies far above the advective one at model scale and is
-// checked by the caller. The eddy viscosity of a turbulence model will be added to nu here.
+// Viscous stress. Without a turbulence model
+//   u += dt / rho_f  div( mu grad u ),   mu = rho nu of the mixture, constant over each staggered volume:
+// at the free surface the air then holds the water as if it were as heavy. With one, or with nu_t = 0 given,
+//   u += dt / rho_f  div( mu_e (grad u + grad u^T) ),   mu_e = rho (nu + nu_t),
+// on edges the harmonic mean of rho of the cells around times the mean of their nu + nu_t: no light volume feels
+// the viscosity of the water beside it. No limit on the step: one
+// longer than the explicit limit is taken in stages (super_steps.hpp). The hull slips here (the velocity extended
+// into it carries no shear; its friction is hull_walls.hpp), the tank's sides as Boundaries say.
 #pragma once
 
 #include "core/flow/flow_state.hpp"
@@ -13,11 +17,21 @@ class Viscosity {
  public:
   Viscosity(const Forest<Dim>& forest, const FluidProperties& fluids, const Boundaries<Dim>& boundaries)
       : forest_(forest), fluids_(fluids), boundaries_(boundaries), u_new_(forest) {}
-  /// Largest stable step on the finest cells [s].
+  /// Largest step that one stage takes with molecular viscosity alone [s].
   double step_limit() const;
-  void apply(FlowState<Dim>& state, double dt);
+  /// `nu_t`: eddy viscosity [m2/s], parents restricted; null: none. Returns the number of stages.
+  int apply(FlowState<Dim>& state, double dt, const CellField<double, Dim>* nu_t = nullptr);
 
  private:
+  struct Stage {
+    double dt, previous, before;
+    bool first;
+  };
+  double explicit_limit(const FlowState<Dim>& state, const CellField<double, Dim>& nu_t) const;
+  void laminar_stage(const FlowState<Dim>& state, const Stage& stage);
+  void turbulent_stage(const FlowState<Dim>& state, const Stage& stage, const CellField<double, Dim>& nu_t);
+  void keep_fixed_sides(const FlowState<Dim>& state, int axis, int b);
+
   const Forest<Dim>& forest_;
   FluidProperties fluids_;
   Boundaries<Dim> boundaries_;

@@ -97,7 +97,7 @@ void VolumeBook<Dim>::close_fluxes(const HullMask<Dim>& mask, const CellField<do
       const auto& solid = mask.solid_face(axis);
       touched = touched || solid[at] > 0 || solid[at + static_cast<std::size_t>(window.stride(axis))] > 0;
     }
-    if (!touched) return;
+    if (!touched || window.tile_of(i) < 0) return;
     double volume = visible_[at];
     for (int axis = 0; axis < Dim; ++axis) {
       const auto ax = static_cast<std::size_t>(axis);

@@ -126,6 +126,26 @@ void WaveZones<Dim>::relax_velocity(FlowState<Dim>& state, double t, double dt) 
   field::restrict_faces<double, Dim>(forest_, state.u);
 }
 
+template <int Dim>
+void WaveZones<Dim>::relax_scalar(CellField<double, Dim>& f, double value, double dt) const {
+  if (!wave_) return;
+  mesh::parallel_for(static_cast<int>(blocks_.size()), forest_.threads(), [&](int k) {
+    const int b = blocks_[static_cast<std::size_t>(k)];
+    const auto& block = forest_.block(b);
+    std::array<double, BlockShape<Dim>::n> weight{};  // by distance from the end
+    for (int i = 0; i < BlockShape<Dim>::n; ++i) {
+      const double s = block.origin[axis_] + (i + 0.5) * block.h[axis_];
+      if (towards_wave(s)) weight[static_cast<std::size_t>(i)] = 1 - std::exp(-gamma(s) * dt);
+    }
+    double* cells = f.block(b);
+    for_box<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& i) {
+      double& c = cells[offset<Dim>(i, cell_strides<Dim>())];
+      c += weight[static_cast<std::size_t>(i[axis_])] * (value - c);
+    });
+  });
+  field::restrict_cells<double, Dim>(forest_, f);
+}
+
 template class WaveZones<2>;
 template class WaveZones<3>;
 

@@ -33,6 +33,9 @@ class WaveZones {
   /// fraction; sets the boundary faces of driven ends.
   void relax_velocity(FlowState<Dim>& state, double t, double dt) const;
 
+  /// A cell scalar towards a value in the zones towards a wave.
+  void relax_scalar(CellField<double, Dim>& f, double value, double dt) const;
+
   /// Water flux in through the driven ends over dt is part of the book as well: added by the caller.
   const std::vector<int>& blocks() const { return blocks_; }
 

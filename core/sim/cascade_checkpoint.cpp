@@ -115,6 +115,10 @@ void CascadeRun<Dim>::write_checkpoint() {
   json owed = json::array();
   for (const auto& [space, volume] : s.reservoirs()) owed.push_back({space, volume});
   meta["reservoirs"] = owed;
+  json y_plus = json::array();
+  for (const auto& [space, r] : s.y_plus())
+    y_plus.push_back({space, r.smallest, r.largest, r.weighted, r.weight});
+  meta["y_plus"] = y_plus;
   const StageResult so_far = result();
   meta["stage"] = {{"index", stage_.index}, {"start_time", stage_.start_time}, {"start_step", stage_.start_step},
                    {"wall_s", so_far.wall_s}, {"phases", so_far.phases}, {"iterations", stage_.iterations},
@@ -129,6 +133,10 @@ void CascadeRun<Dim>::write_checkpoint() {
   writer.add("motion_monitor", motion_monitor_.save());
   writer.add("vof", io::pack<Dim>(s.forest(), s.state().vof));
   writer.add("p", io::pack<Dim>(s.forest(), s.state().p));
+  if (s.state().turbulent()) {
+    writer.add("tke", io::pack<Dim>(s.forest(), s.state().tke));
+    writer.add("epsilon", io::pack<Dim>(s.forest(), s.state().epsilon));
+  }
   for (int axis = 0; axis < Dim; ++axis) {
     writer.add(fmt::format("u{}", axis), io::pack<Dim>(s.forest(), s.state().u, axis));
     writer.add(fmt::format("w{}", axis), io::pack<Dim>(s.forest(), s.state().w, axis));
@@ -190,6 +198,12 @@ void CascadeRun<Dim>::restore(const std::string& path) {
   flow::FlowState<Dim> state(*forest);
   io::unpack<Dim>(*forest, reader.values("vof"), state.vof);
   io::unpack<Dim>(*forest, reader.values("p"), state.p);
+  if (model_->turbulence.model != flow::TurbulenceSpec::Model::none) {
+    state.tke = flow::CellField<double, Dim>(*forest);
+    state.epsilon = flow::CellField<double, Dim>(*forest);
+    io::unpack<Dim>(*forest, reader.values("tke"), state.tke);
+    io::unpack<Dim>(*forest, reader.values("epsilon"), state.epsilon);
+  }
   for (int axis = 0; axis < Dim; ++axis) {
     io::unpack<Dim>(*forest, reader.values(fmt::format("u{}", axis)), axis, state.u);
     io::unpack<Dim>(*forest, reader.values(fmt::format("w{}", axis)), axis, state.w);
@@ -207,6 +221,9 @@ void CascadeRun<Dim>::restore(const std::string& path) {
   simulation_ = std::make_unique<Simulation<Dim>>(model_, std::move(forest), context_);
   simulation_->restore(std::move(state), body, meta.at("time"), meta.at("step"), meta.at("dt"), meta.at("next_dt"),
                        meta.at("exchanged"), reservoirs);
+  std::map<int, flow::YPlusRange> y_plus;
+  for (const json& r : meta.value("y_plus", json::array())) y_plus[r.at(0)] = {r.at(1), r.at(2), r.at(3), r.at(4)};
+  simulation_->set_y_plus(y_plus);
   sequence_ = meta.at("sequence");
   initial_water_ = meta.at("initial_water");
   next_sample_ = meta.at("next_sample");

@@ -228,6 +228,11 @@ StageResult CascadeRun<Dim>::result() const {
   r.volume_drift = scale > 0 ? (water.visible - initial_water_ - water.exchanged) / scale : 0;
   r.has_mapping = stage_.has_mapping;
   r.mapping = stage_.mapping;
+  for (const auto& [space, range] : simulation_->y_plus()) {
+    if (!(range.weight > 0)) continue;
+    const std::string name = space > 0 ? model_->compartments[static_cast<std::size_t>(space - 1)] : "hull";
+    r.walls.push_back({name, range.smallest, range.mean(), range.largest});
+  }
   const double change = motion_monitor_.motion_change(recorder_.free_motions(), 2);
   r.converged = stage.end.kind == EndRule::Kind::time || change < stage.end.tolerance;
   for (const std::size_t k : recorder_.motions()) {
@@ -291,6 +296,7 @@ void CascadeRun<Dim>::map_to_stage(int index) {
   from.p = std::move(old->state().p);
   from.u = std::move(old->state().u);
   from.w = std::move(old->state().w);
+  if (old->state().turbulent()) from.extra = {std::move(old->state().tke), std::move(old->state().epsilon)};
   const transfer::MapReport report = transfer::map_flow<Dim>(map_options(stage.mapping), old->forest(), *forest, from, to);
   std::vector<char> free_cells(report.origin.size());
   for (std::size_t i = 0; i < free_cells.size(); ++i) free_cells[i] = report.origin[i] != 0;
@@ -300,6 +306,10 @@ void CascadeRun<Dim>::map_to_stage(int index) {
   state.p = std::move(to.p);
   state.u = std::move(to.u);
   state.w = std::move(to.w);
+  if (to.extra.size() == 2) {
+    state.tke = std::move(to.extra[0]);
+    state.epsilon = std::move(to.extra[1]);
+  }
   simulation_->set_exchanged(old->exchanged());
   const auto [before, after] = simulation_->adopt(std::move(state), old->body(), old->time(), old->steps(),
                                                   old->dt(), old->reservoirs(), &free_cells);

@@ -23,14 +23,35 @@ struct Fluids {
   double nu_water = 1.0e-6;  ///< kinematic viscosity [m2/s]
   double nu_air = 1.5e-5;
   double gravity = 9.81;      ///< [m/s2]
-  bool viscous = true;        ///< molecular stress in the fluid (walls and hull slip)
+  bool viscous = true;        ///< molecular stress in the fluid
+};
+
+/// k-epsilon and the walls of the hull.
+struct Turbulence {
+  /// none: nothing was asked for; molecular stress in its first form, which is not continuous through the surface.
+  enum class Model { none, laminar, standard, stabilised };
+  enum class Walls { slip, no_slip, wall_function, non_equilibrium };
+  Model model = Model::none;
+  Walls walls = Walls::slip;
+  bool has_k_epsilon() const { return model == Model::standard || model == Model::stabilised; }
+  double intensity = 0.01;      ///< sqrt(2 k / 3) over `velocity`, at the start and where waves come in
+  double velocity = 0;          ///< [m/s]; 0: pi height / period of the wave
+  double length_scale = 0.005;  ///< C_mu^(3/4) k^(3/2) / epsilon there [m]
+  bool buoyancy = false;        ///< turbulence is damped where the density falls upwards
 };
 
 struct Tank {
   Vec3 lower{0, 0, 0};  ///< tank corners [m]; lower.z is minus the depth
   Vec3 upper{0, 0, 0};
   std::array<bool, 3> periodic{false, false, false};
-  bool open_top = true;  ///< pressure 0 at the lid; otherwise a closed slip wall
+  bool open_top = true;  ///< pressure 0 at the lid; otherwise a closed wall
+  /// A side along which the fluid sticks to the wall; it slips along the others.
+  struct NoSlip {
+    int axis = 2;
+    bool upper = false;       ///< z: the lid, otherwise the bottom
+    Vec3 velocity{0, 0, 0};   ///< of the wall, along itself [m/s]
+  };
+  std::vector<NoSlip> no_slip;
 };
 
 /// Waves are functions of (x, t). `none` is calm water.
@@ -207,6 +228,7 @@ struct Case {
   std::string title;
   int dim = 2;
   Fluids fluids;
+  Turbulence turbulence;
   Tank tank;
   double base_cell = 0;              ///< edge of the coarsest cell [m]
   double stretch_x = 1;              ///< 3-D: cells are so many times longer along x; 1..4

@@ -67,6 +67,7 @@ const char* to_string(Dof dof);
 void check_fluids_and_tank(CheckState& s);       // check_tank.cpp
 void check_wave_and_zones(CheckState& s);        // check_wave.cpp
 void check_settings_and_outputs(CheckState& s);  // check_tank.cpp
+void check_turbulence(CheckState& s);            // check_turbulence.cpp: model, walls of hull and tank
 void check_hull(CheckState& s);                  // check_hull.cpp: shape, compartments
 void check_compartment_use(CheckState& s);       // check_hull.cpp: names, floods without an opening
 void check_ship_hull(CheckState& s);             // check_ship.cpp: the same in 3-D

@@ -13,6 +13,22 @@
 namespace seaway::sim {
 namespace {
 
+/// Values of k and epsilon at the start and where waves come in.
+flow::TurbulenceSpec turbulence_of(const Case& c, const waves::WaveField* wave) {
+  const Turbulence& t = c.turbulence;
+  flow::TurbulenceSpec spec;
+  if (!t.has_k_epsilon()) return spec;
+  spec.model = t.model == Turbulence::Model::standard ? flow::TurbulenceSpec::Model::standard
+                                                      : flow::TurbulenceSpec::Model::stabilised;
+  spec.buoyancy = t.buoyancy;
+  double speed = t.velocity;
+  if (speed <= 0 && wave) speed = pi * wave->height() / wave->period();
+  spec.tke = std::max(1.5 * t.intensity * t.intensity * speed * speed, flow::k_epsilon::smallest_tke);
+  spec.epsilon = std::max(std::pow(flow::k_epsilon::c_mu, 0.75) * std::pow(spec.tke, 1.5) / t.length_scale,
+                          flow::k_epsilon::smallest_epsilon);
+  return spec;
+}
+
 /// Shortest and longest of the wave's and the rough natural periods; 0 where there is none.
 struct Periods {
   double shortest = 0, longest = 0;
@@ -42,8 +58,17 @@ Model<Dim> make_model(const Case& c) {
   m.fluids.nu_air = c.fluids.nu_air;
   m.fluids.gravity = c.fluids.gravity;
   m.fluids.viscous = c.fluids.viscous;
+  for (const Tank::NoSlip& side : c.tank.no_slip) {
+    const int axis = side.axis - (3 - Dim);
+    if (axis < 0) continue;
+    auto& wall = m.boundaries.wall[static_cast<std::size_t>(axis)][side.upper ? 1 : 0];
+    wall.no_slip = true;
+    wall.velocity = from_vec3<Dim>(side.velocity);
+  }
+  m.wall_model = static_cast<flow::WallModel>(c.turbulence.walls);
   if (c.tank.open_top) m.boundaries.kind[Dim - 1][1] = field::BoundaryKind::open;
   m.wave = build_wave(c);
+  m.turbulence = turbulence_of(c, m.wave.get());
   Periods periods;
   if (m.wave) periods.add(m.wave->period());
   for (const auto& p : c.body.prescribed) {

@@ -20,6 +20,13 @@ Recorder<Dim>::Recorder(const Model<Dim>& model) {
       if (dof == 2 || dof == 3) release_loads_.push_back(channels_.size());
       channels_.push_back({loads[dof], dof < 3 ? (section ? "N/m" : "N") : (section ? "N" : "N m")});
     }
+    if (model.wall_model != flow::WallModel::slip) {
+      const char* friction[6] = {"friction_x", "friction_y", "friction_z",
+                                 "friction_moment_x", "friction_moment_y", "friction_moment_z"};
+      for (int dof = 0; dof < 6; ++dof)
+        if (motion::dof_index<Dim>(static_cast<motion::Dof>(dof)) >= 0)
+          channels_.push_back({friction[dof], dof < 3 ? (section ? "N/m" : "N") : (section ? "N" : "N m")});
+    }
   }
   const char* volume = section ? "m2" : "m3";
   channels_.push_back({"water_volume", volume});
@@ -42,6 +49,8 @@ std::vector<double> Recorder<Dim>::values(const Simulation<Dim>& s, const StepRe
     const auto displacement = motion::displacement<Dim>(s.body().pose, model.rest_cog);
     for (int i = 0; i < motion::n_dof<Dim>; ++i) out.push_back(displacement[i]);
     for (int i = 0; i < motion::n_dof<Dim>; ++i) out.push_back(s.load()[i]);
+    if (model.wall_model != flow::WallModel::slip)
+      for (int i = 0; i < motion::n_dof<Dim>; ++i) out.push_back(s.friction()[i]);
   }
   const WaterBalance water = s.water();
   double area = 1;

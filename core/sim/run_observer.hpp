@@ -56,6 +56,13 @@ struct MotionAmplitude {
   double change = 0;      ///< relative cycle-to-cycle change that the end rule saw
 };
 
+/// y+ of the points at which the law of the wall is applied, at the wetted walls of the hull or a compartment; the
+/// mean is over area and the stage's time.
+struct WallReport {
+  std::string name;  ///< hull, or the compartment's
+  double y_plus_min = 0, y_plus_mean = 0, y_plus_max = 0;
+};
+
 struct StageResult {
   StageInfo info;
   double end_time = 0;
@@ -69,6 +76,7 @@ struct StageResult {
   bool has_mapping = false;
   MappingReport mapping;
   std::vector<MotionAmplitude> motions;
+  std::vector<WallReport> walls;   ///< empty where the hull slips
 };
 
 struct Progress {

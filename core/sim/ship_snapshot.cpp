@@ -20,7 +20,7 @@ bool in_solid(const Simulation<3>& s, const Vec3& x) {
   return m.hull && m.hull->signed_distance(motion::earth_to_hull<3>(m.body, s.body().pose, x)) < 0;
 }
 
-/// f(lower corner, cell edges, plane) for every cell with a surface outside the hull's solid.
+/// f(lower corner, cell edges, plane, block, cell) for every cell with a surface outside the hull's solid.
 template <class F>
 void for_surface_cells(Simulation<3>& s, F&& f) {
   s.planes().reconstruct(s.state().vof);
@@ -32,7 +32,7 @@ void for_surface_cells(Simulation<3>& s, F&& f) {
       if (!flow::is_mixed(s.state().vof.block(b)[cell])) return;
       const Vec3 centre = block.cell_centre(i);
       if (in_solid(s, centre)) return;
-      f(Vec3(centre - 0.5 * block.h), block.h, s.planes().plane(b, cell));
+      f(Vec3(centre - 0.5 * block.h), block.h, s.planes().plane(b, cell), b, cell);
     });
   }
 }
@@ -65,13 +65,19 @@ json hull_outline(const Simulation<3>& s, int axis, double at) {
 io::PolygonMesh free_surface(Simulation<3>& s) {
   io::PolygonMesh out;
   auto& elevation = out.values["elevation"];
-  for_surface_cells(s, [&](const Vec3& low, const Vec3& h, const flow::Plane<3>& plane) {
+  const bool turbulent = s.state().turbulent();
+  auto* tke = turbulent ? &out.values["tke"] : nullptr;
+  auto* nu_t = turbulent ? &out.values["nu_t"] : nullptr;
+  for_surface_cells(s, [&](const Vec3& low, const Vec3& h, const flow::Plane<3>& plane, int b, int cell) {
     std::vector<int> polygon;
     for (const auto& p : flow::cut_unit_cell(plane)) {
       const Vec3 x = low + Vec3(p[0] * h[0], p[1] * h[1], p[2] * h[2]);
       polygon.push_back(static_cast<int>(out.points.size()));
       out.points.push_back(x);
       elevation.push_back(x[2]);
+      if (!turbulent) continue;
+      tke->push_back(s.state().tke.block(b)[cell]);
+      nu_t->push_back(s.turbulence()->nu_t().block(b)[cell]);
     }
     if (!polygon.empty()) out.polygons.push_back(std::move(polygon));
   });
@@ -101,7 +107,7 @@ void write_section(Simulation<3>& s, double x, int stage, const std::string& pat
   out["bounds"]["y"] = {grid.lower[1], grid.upper[1]};
   out["bounds"]["z"] = {grid.lower[2], grid.upper[2]};
   json surface = json::array();
-  for_surface_cells(s, [&](const Vec3& low, const Vec3& h, const flow::Plane<3>& plane) {
+  for_surface_cells(s, [&](const Vec3& low, const Vec3& h, const flow::Plane<3>& plane, int, int) {
     const double at = (x - low[0]) / h[0];
     if (at < 0 || at >= 1) return;
     json segment = json::array();

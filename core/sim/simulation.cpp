@@ -39,9 +39,11 @@ Simulation<Dim>::Simulation(std::shared_ptr<const Model<Dim>> model, std::unique
       projection_(*forest_, model_->fluids, model_->boundaries),
       viscosity_(*forest_, model_->fluids, model_->boundaries) {
   const Case& c = model_->description;
-  if (model_->hull)
+  if (model_->hull) {
+    const bool fixed = model_->prescribed.empty() && c.body.free.empty();
     mask_ = std::make_unique<flow::HullMask<Dim>>(*forest_, model_->hull, model_->body, hull_clearance<Dim>,
-                                                  model_->walls);
+                                                  model_->walls, fixed);
+  }
   if (c.zones.generation_length > 0 || c.zones.absorption_length > 0) {
     // The wave comes in at the lower end unless it goes towards the negative axis.
     int axis = 0;
@@ -60,7 +62,14 @@ Simulation<Dim>::Simulation(std::shared_ptr<const Model<Dim>> model, std::unique
     if (rate <= 0) rate = model_->period > 0 ? 10 / model_->period : 6.0;
     zones_ = std::make_unique<flow::WaveZones<Dim>>(*forest_, model_->wave, axis, in, out, rate);
   }
-  dt_ = next_dt_ = std::min(model_->dt, c.fluids.viscous ? 0.9 * viscosity_.step_limit() : model_->dt);
+  if (model_->turbulence.model != flow::TurbulenceSpec::Model::none) {
+    turbulence_ = std::make_unique<flow::KEpsilon<Dim>>(*forest_, model_->fluids, model_->boundaries, model_->turbulence);
+    turbulence_->initialise(state_);
+  }
+  if (c.turbulence.model == Turbulence::Model::laminar) no_eddies_ = CellField<double, Dim>(*forest_);
+  if (mask_ && model_->wall_model != flow::WallModel::slip)
+    walls_ = std::make_unique<flow::HullWalls<Dim>>(model_->wall_model, model_->fluids);
+  dt_ = next_dt_ = model_->dt;
   body_.pose = body_.half_pose = model_->start_pose;
   body_.released = c.body.release == Body::Release::at_start;
   advection_.set_flux_visitor([this](int axis, const FaceField<double, Dim>& swept) {
@@ -164,6 +173,7 @@ std::pair<double, double> Simulation<Dim>::adopt(flow::FlowState<Dim>&& state, c
                                                  const std::map<int, double>& reservoirs,
                                                  const std::vector<char>* free_cells) {
   state_ = std::move(state);
+  if (turbulence_ && !state_.turbulent()) turbulence_->initialise(state_);
   body_ = body;
   time_ = time;
   step_ = step;
@@ -172,6 +182,10 @@ std::pair<double, double> Simulation<Dim>::adopt(flow::FlowState<Dim>&& state, c
   if (mask_) mask_->update(body_.pose, body_.half_pose);
   field::restrict_cells<double, Dim>(*forest_, state_.vof);
   field::restrict_cells<double, Dim>(*forest_, state_.p);
+  if (turbulence_) {
+    field::restrict_cells<double, Dim>(*forest_, state_.tke);
+    field::restrict_cells<double, Dim>(*forest_, state_.epsilon);
+  }
   field::restrict_faces<double, Dim>(*forest_, state_.u);
   field::restrict_faces<double, Dim>(*forest_, state_.w);
   extend_vof_and_settle(dt_, true);
@@ -208,6 +222,10 @@ void Simulation<Dim>::restore(flow::FlowState<Dim>&& state, const BodyState<Dim>
   exchanged_ = exchanged;
   field::restrict_cells<double, Dim>(*forest_, state_.vof);
   field::restrict_cells<double, Dim>(*forest_, state_.p);
+  if (turbulence_) {
+    field::restrict_cells<double, Dim>(*forest_, state_.tke);
+    field::restrict_cells<double, Dim>(*forest_, state_.epsilon);
+  }
   field::restrict_faces<double, Dim>(*forest_, state_.u);
   field::restrict_faces<double, Dim>(*forest_, state_.w);
   if (mask_) {
@@ -300,12 +318,44 @@ motion::DofMatrix<Dim> Simulation<Dim>::inverse_mass() const {
   return motion::effective_inverse_mass<Dim>(model_->body, body_.pose, free);
 }
 
+/// Viscous and turbulent stress over dt, friction at the hull.
+template <int Dim>
+void Simulation<Dim>::stress(double dt) {
+  if (!model_->description.fluids.viscous) return;
+  const CellField<double, Dim>* nu_t = turbulence_ ? &turbulence_->nu_t() : no_eddies_.data().empty() ? nullptr : &no_eddies_;
+  if (!turbulence_ && !walls_) {
+    viscosity_.apply(state_, dt, nu_t);
+    return;
+  }
+  clock_.charge("forcing");
+  if (walls_) walls_->find_stress(*mask_, state_, body_.twist);
+  if (turbulence_) {
+    if (zones_) {
+      zones_->relax_scalar(state_.tke, turbulence_->spec().tke, dt);
+      zones_->relax_scalar(state_.epsilon, turbulence_->spec().epsilon, dt);
+    }
+    turbulence_->advance(state_, dt, walls_ ? walls_->near_cells() : std::span<const flow::NearWallCell>{});
+    if (mask_) {
+      std::vector<double> tke, epsilon;
+      mask_->window().load_cells(state_.tke, tke);
+      mask_->window().load_cells(state_.epsilon, epsilon);
+      extension_.extend_scalars(*mask_, {&tke, &epsilon}, {turbulence_->spec().tke, turbulence_->spec().epsilon});
+      mask_->window().store_cells(tke, state_.tke);
+      mask_->window().store_cells(epsilon, state_.epsilon);
+    }
+    turbulence_->update_nu_t(state_);
+  }
+  viscosity_.apply(state_, dt, nu_t);
+  if (walls_) friction_ = walls_->apply(*mask_, state_, body_.twist, dt);
+  clock_.charge("turbulence");
+}
+
 /// Forces over dt, then the projection: velocities go from half a step before the new positions to half a
 /// step after them.
 template <int Dim>
 void Simulation<Dim>::kick(double dt, StepReport& report) {
   const Case& c = model_->description;
-  if (c.fluids.viscous) viscosity_.apply(state_, dt);
+  stress(dt);
   // Before gravity: relaxing the weight's kick as well would make the water lighter in the zones.
   if (zones_) zones_->relax_velocity(state_, time_ + 0.5 * next_dt_, dt);
   projection_.apply_gravity(state_, dt);
@@ -319,6 +369,7 @@ void Simulation<Dim>::kick(double dt, StepReport& report) {
     // The pressure acts on the hull where it is now, while the solve has it half a step ahead.
     force += rows_now.gather(state_.p.data()) - rows_half.gather(state_.p.data());
     force += mask_->carried_weight(window_vof_, model_->fluids);
+    if (walls_) force += friction_;
     body_.twist += dt * (inverse * force);
   }
   clock_.charge("hull");
@@ -389,7 +440,7 @@ StepReport Simulation<Dim>::step() {
 template <int Dim>
 void Simulation<Dim>::plan_next_step(const StepReport& report) {
   const double limit = model_->description.time.cfl * model_->description.time.max_substeps;
-  const double wanted = std::min(model_->dt, viscosity_.step_limit() * 0.9);
+  const double wanted = model_->dt;
   next_dt_ = dt_;
   if (report.courant > limit) next_dt_ = 0.9 * dt_;
   else if (dt_ < wanted && report.courant * 1.25 < limit) next_dt_ = std::min(wanted, 1.05 * dt_);

@@ -11,6 +11,7 @@
 #include "core/base/run_context.hpp"
 #include "core/flow/advection.hpp"
 #include "core/flow/hull_extension.hpp"
+#include "core/flow/hull_walls.hpp"
 #include "core/flow/projection.hpp"
 #include "core/flow/viscosity.hpp"
 #include "core/flow/volume_book.hpp"
@@ -31,6 +32,8 @@ struct Model {
   Case description;
   mesh::TankGrid<Dim> grid;
   flow::FluidProperties fluids;
+  flow::TurbulenceSpec turbulence;
+  flow::WallModel wall_model = flow::WallModel::slip;
   flow::Boundaries<Dim> boundaries;
   std::shared_ptr<const waves::WaveField> wave;         ///< null in calm water
   std::shared_ptr<const hull::Hull<Dim>> hull;          ///< null without a hull
@@ -119,6 +122,15 @@ class Simulation {
 
   /// Pressure force and moment about the cog on the hull at time t [N, N m; 2-D per metre].
   const motion::DofVector<Dim>& load() const { return load_; }
+  /// Friction force and moment, likewise; 0 where the hull slips. Over the last step.
+  const motion::DofVector<Dim>& friction() const { return friction_; }
+  /// y+ at the hull since the start of the stage, by connected space; empty where the hull slips.
+  std::map<int, flow::YPlusRange> y_plus() const { return walls_ ? walls_->y_plus() : std::map<int, flow::YPlusRange>{}; }
+  void set_y_plus(const std::map<int, flow::YPlusRange>& ranges) {
+    if (walls_) walls_->y_plus() = ranges;
+  }
+  /// Null without a turbulence model.
+  const flow::KEpsilon<Dim>* turbulence() const { return turbulence_.get(); }
   WaterBalance water() const;
   void set_exchanged(double volume) { exchanged_ = volume; }
   double exchanged() const { return exchanged_; }
@@ -141,6 +153,7 @@ class Simulation {
   void extend_pressure();
   motion::FreeDofs<Dim> free_now() const;
   motion::DofMatrix<Dim> inverse_mass() const;
+  void stress(double dt);
   void kick(double dt, StepReport& report);
   void plan_next_step(const StepReport& report);
   double end_flux(const FaceField<double, Dim>& swept) const;
@@ -152,12 +165,16 @@ class Simulation {
   flow::Advection<Dim> advection_;
   flow::Projection<Dim> projection_;
   flow::Viscosity<Dim> viscosity_;
+  std::unique_ptr<flow::KEpsilon<Dim>> turbulence_;
+  CellField<double, Dim> no_eddies_;  ///< nu_t = 0 for `laminar`; empty otherwise
+  std::unique_ptr<flow::HullWalls<Dim>> walls_;
   std::unique_ptr<flow::HullMask<Dim>> mask_;
   flow::HullExtension<Dim> extension_;
   flow::VolumeBook<Dim> book_;
   std::unique_ptr<flow::WaveZones<Dim>> zones_;
   BodyState<Dim> body_;
   motion::DofVector<Dim> load_ = motion::DofVector<Dim>::Zero();
+  motion::DofVector<Dim> friction_ = motion::DofVector<Dim>::Zero();
   double time_ = 0, dt_ = 0, next_dt_ = 0;
   std::int64_t step_ = 0, sub_step_ = 0;
   double exchanged_ = 0;

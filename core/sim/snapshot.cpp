@@ -1,5 +1,8 @@
 #include "core/sim/snapshot.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "core/flow/plane_cut.hpp"
@@ -7,6 +10,50 @@
 #include "core/io/whole_file.hpp"
 
 namespace seaway::sim {
+namespace {
+
+/// k and nu_t of the cells at the points of a regular grid: about the hull, or of the whole tank.
+nlohmann::json turbulence_about_hull(const Simulation<2>& s) {
+  constexpr int points = 10000;
+  const auto& forest = s.forest();
+  const Model<2>& model = s.model();
+  Vec2 lower = model.grid.lower, upper = model.grid.upper;
+  if (model.hull) {
+    const auto bounds = model.hull->bounds();
+    const double reach = (bounds.upper - bounds.lower).maxCoeff();
+    lower = lower.cwiseMax(s.body().pose.cog - Vec2::Constant(reach));
+    upper = upper.cwiseMin(s.body().pose.cog + Vec2::Constant(reach));
+  }
+  const Vec2 size = upper - lower;
+  const double edge = std::max(std::sqrt(size.prod() / points), forest.finest_cell());
+  nlohmann::json out;
+  std::array<int, 2> n{};
+  for (int a = 0; a < 2; ++a) {
+    n[static_cast<std::size_t>(a)] = std::max(1, static_cast<int>(std::lround(size[a] / edge)));
+    const double step = size[a] / n[static_cast<std::size_t>(a)];
+    out[a == 0 ? "y" : "z"] = {{"first", lower[a] + 0.5 * step}, {"step", step}, {"count", n[static_cast<std::size_t>(a)]}};
+  }
+  for (int j = 0; j < n[1]; ++j) {
+    nlohmann::json tke = nlohmann::json::array(), nu_t = nlohmann::json::array();
+    for (int i = 0; i < n[0]; ++i) {
+      const Vec2 x(lower[0] + (i + 0.5) * size[0] / n[0], lower[1] + (j + 0.5) * size[1] / n[1]);
+      const int b = forest.find_leaf(x);
+      const auto& block = forest.block(b);
+      IVec<2> cell{};
+      for (int a = 0; a < 2; ++a)
+        cell[static_cast<std::size_t>(a)] =
+            std::clamp(static_cast<int>((x[a] - block.origin[a]) / block.h[a]), 0, mesh::BlockShape<2>::n - 1);
+      const int at = field::offset<2>(cell, field::cell_strides<2>());
+      tke.push_back(static_cast<float>(s.state().tke.block(b)[at]));
+      nu_t.push_back(static_cast<float>(s.turbulence()->nu_t().block(b)[at]));
+    }
+    out["tke_m2_per_s2"].push_back(std::move(tke));
+    out["nu_t_m2_per_s"].push_back(std::move(nu_t));
+  }
+  return out;
+}
+
+}  // namespace
 
 void write_section(Simulation<2>& s, int stage, const std::string& path) {
   const auto& forest = s.forest();
@@ -48,6 +95,7 @@ void write_section(Simulation<2>& s, int stage, const std::string& path) {
     }
   }
   out["hull"] = loops;
+  if (s.turbulence()) out["turbulence"] = turbulence_about_hull(s);
   io::write_whole_file(path, {out.dump()});
 }
 

@@ -48,6 +48,7 @@ void read_tank(const v1::Case& message, int dim, sim::Tank& tank, Checker& check
     }
   }
   if (m.has_open_top()) tank.open_top = m.open_top();
+  read_no_slip(m, dim, tank, check);
 }
 
 void read_zones(const v1::Zones& m, sim::Zones& zones, Checker& check) {
@@ -147,6 +148,7 @@ sim::Case to_core(const v1::Case& m) {
   }
   if (m.has_wave()) read_wave(m.wave(), c.dim, c.wave, check);
   read_zones(m.zones(), c.zones, check);
+  if (m.has_turbulence()) read_turbulence(m.turbulence(), c.turbulence, check);
   if (m.has_hull()) read_hull(m.hull(), c.dim, c.hull, check);
   read_body(m, c.body, check);
   read_time(m.time(), c.time, check);

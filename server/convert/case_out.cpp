@@ -189,6 +189,8 @@ v1::Case to_proto(const sim::Case& c) {
   if (c.tank.periodic[0]) m.mutable_tank()->add_periodic(v1::AXIS_X);
   if (c.tank.periodic[1]) m.mutable_tank()->add_periodic(v1::AXIS_Y);
   m.mutable_tank()->set_open_top(c.tank.open_top);
+  put_no_slip(c.tank, c.dim, *m.mutable_tank());
+  if (c.turbulence.model != sim::Turbulence::Model::none) put_turbulence(c.turbulence, *m.mutable_turbulence());
   m.mutable_mesh()->set_base_cell_m(c.base_cell);
   if (c.dim == 3) m.mutable_mesh()->set_stretch_x(c.stretch_x);
   put_wave(c.wave, *m.mutable_wave());

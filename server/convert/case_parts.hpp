@@ -25,6 +25,10 @@ bool dof_exists(sim::Dof dof, int dim);
 void read_wave(const v1::Wave& message, int dim, sim::Wave& wave, Checker& check);
 void read_hull(const v1::Hull& message, int dim, sim::Hull& hull, Checker& check);
 void read_body(const v1::Case& message, sim::Body& body, Checker& check);
+void read_turbulence(const v1::Turbulence& message, sim::Turbulence& turbulence, Checker& check);
+void read_no_slip(const v1::Tank& message, int dim, sim::Tank& tank, Checker& check);
+void put_turbulence(const sim::Turbulence& turbulence, v1::Turbulence& message);
+void put_no_slip(const sim::Tank& tank, int dim, v1::Tank& message);
 void read_cascade(const v1::Cascade& message, int dim, std::vector<sim::Stage>& stages, Checker& check);
 
 }  // namespace seaway::convert

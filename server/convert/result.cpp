@@ -90,6 +90,13 @@ v1::StageReport to_proto(const sim::StageResult& result) {
     to.set_period_s(from.period);
     to.set_change(from.change);
   }
+  for (const sim::WallReport& from : result.walls) {
+    v1::WallReport& to = *m.add_wall_layers();
+    to.set_name(from.name);
+    to.set_y_plus_min(from.y_plus_min);
+    to.set_y_plus_mean(from.y_plus_mean);
+    to.set_y_plus_max(from.y_plus_max);
+  }
   return m;
 }
 

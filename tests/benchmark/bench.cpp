@@ -31,13 +31,17 @@ double rate(const Measurement& m, double cpu_s) {
 
 }  // namespace
 
-Measurement measure_step(std::int64_t cells, int steps, int threads) {
-  const sim::Case c = bench_case(cells);
+Measurement measure_step(std::int64_t cells, int steps, int threads, bool turbulent) {
+  sim::Case c = bench_case(cells);
+  if (turbulent) {
+    c.turbulence.model = sim::Turbulence::Model::stabilised;
+    c.turbulence.walls = sim::Turbulence::Walls::wall_function;
+  }
   const double heap_before = heap_bytes();
   const auto run = validation::start(c, threads);
   for (int i = 0; i < 10; ++i) validation::step(*run);
   Measurement m;
-  m.name = "step_2d";
+  m.name = turbulent ? "step_2d_rans" : "step_2d";
   m.cells = run->forest().n_cells();
   m.steps = steps;
   m.threads = threads;

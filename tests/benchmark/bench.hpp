@@ -19,7 +19,7 @@ struct Measurement {
 };
 
 /// Whole time steps on a mesh of about `cells` cells, after some that let the hull get going.
-Measurement measure_step(std::int64_t cells, int steps, int threads);
+Measurement measure_step(std::int64_t cells, int steps, int threads, bool turbulent = false);
 
 /// Transport of water and momentum alone, `steps` sub-steps.
 Measurement measure_advection(std::int64_t cells, int steps, int threads);

@@ -41,11 +41,12 @@ void print_row(const Measurement& m) {
 int main(int argc, char** argv) {
   CLI::App app{
       "Speed of the solver: the example section moving in waves, zones and volume book on."};
-  bool json = false, kernels = false;
+  bool json = false, kernels = false, turbulence = false;
   std::vector<std::int64_t> cells{50000, 300000};
   int threads = 1, steps = 0;
   app.add_flag("--json", json, "one JSON object a line");
   app.add_flag("--kernels", kernels, "advection and multigrid cycle by themselves as well");
+  app.add_flag("--turbulence", turbulence, "the step with k-epsilon and wall functions as well");
   app.add_option("--cells", cells, "wanted numbers of cells; met to a few per cent")
       ->check(CLI::Range(10000, 20000000));
   app.add_option("--threads", threads)->check(CLI::Range(1, 256));
@@ -59,6 +60,7 @@ int main(int argc, char** argv) {
           steps > 0 ? steps : static_cast<int>(std::max<std::int64_t>(20, 6000000 / n));
       const auto print = json ? print_json : print_row;
       print(seaway::bench::measure_step(n, count, threads));
+      if (turbulence) print(seaway::bench::measure_step(n, count, threads, true));
       if (!kernels) continue;
       print(seaway::bench::measure_advection(n, count, threads));
       print(seaway::bench::measure_pressure_cycle(n, 4 * count, threads));

@@ -51,5 +51,12 @@ void run_ship_held(const Context& context, Results& results);
 void run_dtmb5415_decay_intact(const Context& context, Results& results);
 void run_dtmb5415_decay_damaged(const Context& context, Results& results);
 void run_cascade_section(const Context& context, Results& results);
+void run_viscous_wave(const Context& context, Results& results);
+void run_taylor_green(const Context& context, Results& results);
+void run_lid_cavity(const Context& context, Results& results);
+void run_decaying_turbulence(const Context& context, Results& results);
+void run_channel(const Context& context, Results& results);
+void run_wave_train_rans(const Context& context, Results& results);
+void run_barge_roll_decay_rans(const Context& context, Results& results);
 
 }  // namespace seaway::validation

@@ -61,6 +61,27 @@ TEST(ConvertCase, WritesEveryDefaultOut) {
       << full.DebugString() << again.DebugString();
 }
 
+TEST(ConvertCase, TurbulenceAndNoSlipSidesGoThereAndBack) {
+  v1::Case m = small();
+  EXPECT_EQ(to_core(m).turbulence.model, sim::Turbulence::Model::none);
+  EXPECT_FALSE(to_proto(to_core(m)).has_turbulence());
+  m.mutable_turbulence()->set_intensity(0.05);
+  v1::NoSlipSide& lid = *m.mutable_tank()->add_no_slip();
+  lid.set_side(v1::TANK_SIDE_BOTTOM);
+  lid.set_velocity_y_m_per_s(0.5);
+  const sim::Case c = to_core(m);
+  EXPECT_EQ(c.turbulence.model, sim::Turbulence::Model::stabilised);
+  EXPECT_EQ(c.turbulence.walls, sim::Turbulence::Walls::wall_function);
+  EXPECT_EQ(c.turbulence.intensity, 0.05);
+  ASSERT_EQ(c.tank.no_slip.size(), 1u);
+  EXPECT_EQ(c.tank.no_slip[0].axis, 2);
+  EXPECT_FALSE(c.tank.no_slip[0].upper);
+  EXPECT_EQ(c.tank.no_slip[0].velocity.y(), 0.5);
+  const v1::Case full = to_proto(c);
+  EXPECT_EQ(full.turbulence().length_scale_m(), 0.005);
+  EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(full, to_proto(to_core(full))));
+}
+
 struct Mistake {
   const char* field;
   void (*make)(v1::Case&);
@@ -75,6 +96,13 @@ constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 INSTANTIATE_TEST_SUITE_P(
     ConvertCase, Mistakes,
     ::testing::Values(
+        Mistake{"turbulence.intensity", [](v1::Case& m) { m.mutable_turbulence()->set_intensity(2); }},
+        Mistake{"turbulence.length_scale_m",
+                [](v1::Case& m) {
+                  m.mutable_turbulence()->set_model(v1::Turbulence::MODEL_LAMINAR);
+                  m.mutable_turbulence()->set_length_scale_m(1);
+                }},
+        Mistake{"tank.no_slip[0].side", [](v1::Case& m) { m.mutable_tank()->add_no_slip(); }},
         Mistake{"title", [](v1::Case& m) { m.clear_title(); }},
         Mistake{"dimension", [](v1::Case& m) { m.set_dimension(4); }},
         Mistake{"tank", [](v1::Case& m) { m.clear_tank(); }},

@@ -46,6 +46,7 @@ MappedRun map_to_stage(Section& from, const sim::Stage& stage, int threads) {
   in.p = std::move(from.state().p);
   in.u = std::move(from.state().u);
   in.w = std::move(from.state().w);
+  if (from.state().turbulent()) in.extra = {std::move(from.state().tke), std::move(from.state().epsilon)};
   const auto report = transfer::map_flow<2>({}, from.forest(), *forest, in, out);
   std::vector<char> new_cells(report.origin.size());
   for (std::size_t i = 0; i < new_cells.size(); ++i) new_cells[i] = report.origin[i] != 0;
@@ -56,6 +57,10 @@ MappedRun map_to_stage(Section& from, const sim::Stage& stage, int threads) {
   state.p = std::move(out.p);
   state.u = std::move(out.u);
   state.w = std::move(out.w);
+  if (out.extra.size() == 2) {
+    state.tke = std::move(out.extra[0]);
+    state.epsilon = std::move(out.extra[1]);
+  }
   mapped.run->set_exchanged(from.exchanged());
   std::tie(mapped.divergence_before, mapped.divergence_after) =
       mapped.run->adopt(std::move(state), from.body(), from.time(), from.steps(), from.dt(),
