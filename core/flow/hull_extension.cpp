@@ -73,7 +73,6 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
   // 0: known; 1, 2, ...: layers; -1: not reached.
   layer_.assign(window.size(), -1);
   level_.assign(window.size(), 0);
-  std::vector<int> level_found;
   IVec<Dim> inner_upper = window.n();
   for (int& u : inner_upper) u -= 1;
   window.for_cells([&](const IVec<Dim>& i) {
@@ -102,13 +101,13 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
   for (int layer = 1; layer <= extension_layers; ++layer) {
     list_.clear();
     next_.clear();
-    level_found.clear();
     for_box<Dim>(filled<Dim>(1), inner_upper, [&](const IVec<Dim>& i) {
       const int at = window.at(i);
       if (layer_[static_cast<std::size_t>(at)] != -1 || phi[static_cast<std::size_t>(at)] < -(layer + 2) * window.h().maxCoeff())
         return;
       const Vec<Dim> gradient = distance_gradient<Dim>(window, phi, at);
-      double planes = 0, plane_weight = 0, means = 0, mean_weight = 0, level = 0, level_weight = 0;
+      // At the cell's own height, by planes or level neighbours; and over all neighbours.
+      double levels = 0, level_weight = 0, means = 0, mean_weight = 0;
       for (const bool only_visible : {true, false}) {
         for (const auto& n : around) {
           if (layer > 1 && n.distance > 1) continue;
@@ -118,13 +117,8 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
           const double c = vof[static_cast<std::size_t>(from)];
           means += c;
           mean_weight += 1;
-          if (n.at[Dim - 1] == 0 && level_[static_cast<std::size_t>(from)]) {
-            level += c;
-            level_weight += 1;
-          }
-          if (layer > 1) continue;
           const double weight = n.distance == 1 ? 1.0 : 0.5;
-          bool inside = true;  // the plane needs the neighbour's own 3^Dim stencil
+          bool inside = layer == 1;  // the plane needs the neighbour's own 3^Dim stencil
           for (int a = 0; a < Dim; ++a)
             inside = inside && i[a] + n.at[a] >= 1 && i[a] + n.at[a] < window.n()[a] - 1;
           const bool surface = std::min(c, 1 - c) > least_surface;
@@ -132,29 +126,26 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
           if (inside && surface) plane = interface_plane<Dim>(window, vof, spaces, from);
           if (inside && (surface || sharp_plane(from, plane))) {
             for (int a = 0; a < Dim; ++a) plane.d += n.at[a] * plane.normal[static_cast<std::size_t>(a)];
-            planes += weight * plane_fraction<Dim>(plane.normal, plane.d);
-            plane_weight += weight;
-          } else if (n.at[Dim - 1] == 0) {
-            planes += weight * c;
-            plane_weight += weight;
+            levels += weight * plane_fraction<Dim>(plane.normal, plane.d);
+            level_weight += weight;
+          } else if (n.at[Dim - 1] == 0 && level_[static_cast<std::size_t>(from)]) {
+            levels += weight * c;
+            level_weight += weight;
           }
         }
         if (mean_weight > 0) break;
       }
       if (mean_weight == 0) return;
       list_.push_back(at);
-      double value = means / mean_weight;
-      if (plane_weight > 0) value = planes / plane_weight;
-      else if (layer > 1 && level_weight > 0) value = level / level_weight;
+      const double value = level_weight > 0 ? levels / level_weight : means / mean_weight;
       next_.push_back(value);
-      if (plane_weight > 0 || level_weight > 0) level_found.push_back(at);
+      if (level_weight > 0) level_[static_cast<std::size_t>(at)] = 1;
       else if (layer == 1 && value > 0.5) front_.push_back(at);
     });
     for (std::size_t k = 0; k < list_.size(); ++k) {
       vof[static_cast<std::size_t>(list_[k])] = next_[k];
       layer_[static_cast<std::size_t>(list_[k])] = static_cast<signed char>(layer);
     }
-    for (const int at : level_found) level_[static_cast<std::size_t>(at)] = 1;
   }
   level_off(mask.window(), vof);
 }
@@ -212,51 +203,64 @@ void HullExtension<Dim>::level_off(const HullWindow<Dim>& window, std::vector<do
   }
 }
 
+/// Layer by layer from the entries with layer_ 0 inwards: means of the neighbours that an entry with layer_ -1 sees, and
+/// that are not `behind(at, other)` a wall.
 template <int Dim>
-void HullExtension<Dim>::extend_scalars(const HullMask<Dim>& mask, std::array<std::vector<double>*, 2> scalars,
-                                        std::array<double, 2> deep) {
-  const HullWindow<Dim>& window = mask.window();
-  const auto& theta = mask.fluid_fraction();
-  const auto& phi = mask.now().phi;
-  const auto& spaces = mask.now().space;
+template <class Behind>
+void HullExtension<Dim>::fill_layers(const HullWindow<Dim>& window, const std::vector<double>& phi, const Behind& behind,
+                                     std::span<std::vector<double>* const> fields) {
   const auto around = neighbours<Dim>(window);
-  layer_.assign(window.size(), -1);
-  window.for_cells([&](const IVec<Dim>& i) {
-    const auto at = static_cast<std::size_t>(window.at(i));
-    if (theta[at] >= 0.5) layer_[at] = 0;
-  });
   IVec<Dim> upper = window.n();
   for (int& u : upper) --u;
+  std::vector<double> sums(fields.size());
   for (int layer = 1; layer <= extension_layers; ++layer) {
     list_.clear();
     next_.clear();
     for_box<Dim>(filled<Dim>(1), upper, [&](const IVec<Dim>& i) {
       const int at = window.at(i);
-      const double depth = phi[static_cast<std::size_t>(at)];
-      if (layer_[static_cast<std::size_t>(at)] != -1 || depth < -(layer + 2) * window.h().maxCoeff()) return;
+      if (layer_[static_cast<std::size_t>(at)] != -1 || phi[static_cast<std::size_t>(at)] < -(layer + 2) * window.h().maxCoeff())
+        return;
       const Vec<Dim> gradient = distance_gradient<Dim>(window, phi, at);
-      double sum[2] = {0, 0}, weight = 0;
+      std::fill(sums.begin(), sums.end(), 0.0);
+      double weight = 0;
       for (const bool only_visible : {true, false}) {
         for (const auto& n : around) {
           const auto from = static_cast<std::size_t>(at + n.index);
-          if (layer_[from] < 0 || layer_[from] >= layer || (only_visible && !visible<Dim>(window, n, gradient)) ||
-              (!spaces.empty() && apart(spaces[static_cast<std::size_t>(at)], spaces[from])))
+          if (layer_[from] < 0 || layer_[from] >= layer || behind(at, static_cast<int>(from)) ||
+              (only_visible && !visible<Dim>(window, n, gradient)))
             continue;
-          for (std::size_t s = 0; s < 2; ++s) sum[s] += (*scalars[s])[from];
+          for (std::size_t f = 0; f < fields.size(); ++f) sums[f] += (*fields[f])[from];
           weight += 1;
         }
         if (weight > 0) break;
       }
       if (weight == 0) return;
       list_.push_back(at);
-      for (const double s : sum) next_.push_back(s / weight);
+      for (const double sum : sums) next_.push_back(sum / weight);
     });
     for (std::size_t k = 0; k < list_.size(); ++k) {
       const auto at = static_cast<std::size_t>(list_[k]);
-      for (std::size_t s = 0; s < 2; ++s) (*scalars[s])[at] = next_[2 * k + s];
+      for (std::size_t f = 0; f < fields.size(); ++f) (*fields[f])[at] = next_[fields.size() * k + f];
       layer_[at] = static_cast<signed char>(layer);
     }
   }
+}
+
+template <int Dim>
+void HullExtension<Dim>::extend_scalars(const HullMask<Dim>& mask, std::array<std::vector<double>*, 2> scalars,
+                                        std::array<double, 2> deep) {
+  const HullWindow<Dim>& window = mask.window();
+  const auto& theta = mask.fluid_fraction();
+  const auto& spaces = mask.now().space;
+  layer_.assign(window.size(), -1);
+  window.for_cells([&](const IVec<Dim>& i) {
+    const auto at = static_cast<std::size_t>(window.at(i));
+    if (theta[at] >= 0.5) layer_[at] = 0;
+  });
+  const auto behind = [&](int at, int other) {
+    return !spaces.empty() && apart(spaces[static_cast<std::size_t>(at)], spaces[static_cast<std::size_t>(other)]);
+  };
+  fill_layers(window, mask.now().phi, behind, scalars);
   window.for_cells([&](const IVec<Dim>& i) {
     const auto at = static_cast<std::size_t>(window.at(i));
     for (std::size_t s = 0; s < 2; ++s)
@@ -319,35 +323,7 @@ void HullExtension<Dim>::extend_velocity(const HullMask<Dim>& mask, int axis, co
     next_.push_back(mean + std::clamp(u[static_cast<std::size_t>(at)] - mean, -largest, largest));
   });
   for (std::size_t k = 0; k < list_.size(); ++k) u[static_cast<std::size_t>(list_[k])] = next_[k];
-  for (int layer = 1; layer <= extension_layers; ++layer) {
-    list_.clear();
-    next_.clear();
-    for_box<Dim>(filled<Dim>(1), inner_upper, [&](const IVec<Dim>& i) {
-      const int at = window.at(i);
-      if (layer_[static_cast<std::size_t>(at)] != -1 || phi[static_cast<std::size_t>(at)] < -(layer + 2) * window.h().maxCoeff())
-        return;
-      const Vec<Dim> gradient = distance_gradient<Dim>(window, phi, at);
-      double sum = 0, weight = 0;
-      for (const bool only_visible : {true, false}) {
-        for (const auto& n : around) {
-          const auto from = static_cast<std::size_t>(at + n.index);
-          if (layer_[from] < 0 || layer_[from] >= layer || behind(at, static_cast<int>(from)) ||
-              (only_visible && !visible<Dim>(window, n, gradient)))
-            continue;
-          sum += u[from];
-          weight += 1;
-        }
-        if (weight > 0) break;
-      }
-      if (weight == 0) return;
-      list_.push_back(at);
-      next_.push_back(sum / weight);
-    });
-    for (std::size_t k = 0; k < list_.size(); ++k) {
-      u[static_cast<std::size_t>(list_[k])] = next_[k];
-      layer_[static_cast<std::size_t>(list_[k])] = static_cast<signed char>(layer);
-    }
-  }
+  fill_layers(window, phi, behind, std::array{&u});
   for_box<Dim>(filled<Dim>(0), faces_upper, [&](const IVec<Dim>& i) {
     const auto at = static_cast<std::size_t>(window.at(i));
     if (layer_[at] >= 0) return;

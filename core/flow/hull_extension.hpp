@@ -6,6 +6,8 @@
 // wall of two cells leaks through diagonal neighbours. With Walls::thin nothing passes between spaces.
 #pragma once
 
+#include <span>
+
 #include "core/flow/flow_state.hpp"
 #include "core/flow/hull_mask.hpp"
 
@@ -32,6 +34,9 @@ class HullExtension {
                        std::vector<double>& u);
 
  private:
+  template <class Behind>
+  void fill_layers(const HullWindow<Dim>& window, const std::vector<double>& phi, const Behind& behind,
+                   std::span<std::vector<double>* const> fields);
   void level_off(const HullWindow<Dim>& window, std::vector<double>& vof);
 
   std::vector<signed char> layer_, face_space_;

@@ -10,13 +10,6 @@ namespace seaway::flow {
 using field::filled;
 using field::for_box;
 
-namespace {
-
-/// Cells of the finest level that there must be about the hull: extension, planes and the volume book look so far.
-constexpr double cells_about_hull = 4;
-
-}  // namespace
-
 template <int Dim>
 HullMask<Dim>::HullMask(const Forest<Dim>& forest, std::shared_ptr<const hull::Hull<Dim>> hull,
                         const motion::RigidBody<Dim>& body, int clearance, Walls walls, bool fixed)
@@ -191,13 +184,13 @@ void HullMask<Dim>::update(const motion::Pose<Dim>& now, const motion::Pose<Dim>
     }
   }
   const Vec<Dim> h = window_.forest().cell_size(window_.forest().n_levels() - 1);
-  const Vec<Dim> around = cells_about_hull * h;
+  const Vec<Dim> around = clearance_ * h;
   const auto touches = [&](const Vec<Dim>& low, const Vec<Dim>& high) {
     for (const auto& pose : {now, half_step})
       if (comes_near<Dim>(*hull_, body_, pose, low - around, high + around, 0.0)) return true;
     return false;
   };
-  moved_ = window_.cover(lower - clearance_ * h, upper + clearance_ * h, touches) || !has_pose_;
+  moved_ = window_.cover(lower - around, upper + around, touches) || !has_pose_;
   has_pose_ = true;
   // Half diagonal, and the table's interpolation error near corners.
   clip_distance_ = 0.5 * h.norm() + 0.25 * h.maxCoeff();

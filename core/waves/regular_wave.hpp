@@ -43,4 +43,15 @@ class RegularWave : public WaveField {
   double k_, omega_, cos_heading_, sin_heading_;
 };
 
+/// Regular waves whose pressure follows from their velocity by Bernoulli's equation in the wave's frame.
+class BernoulliWave final : public RegularWave {
+ public:
+  /// `bernoulli`: R less g d, heights from the mean level [m2/s2].
+  BernoulliWave(const RegularWaveSpec& spec, const Shape& shape, ModeSeries series, double bernoulli);
+  double pressure(const Vec3& x, double t) const override;
+
+ private:
+  double bernoulli_;
+};
+
 }  // namespace seaway::waves

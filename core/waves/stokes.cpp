@@ -96,22 +96,6 @@ double wave_number_of(const RegularWaveSpec& spec) {
   return 0.5 * (lower + upper);
 }
 
-class StokesWave final : public RegularWave {
- public:
-  StokesWave(const RegularWaveSpec& spec, const Shape& shape, ModeSeries series, double bernoulli)
-      : RegularWave(spec, shape, std::move(series)), bernoulli_(bernoulli) {}
-
-  double pressure(const Vec3& x, double t) const override {
-    ModeSeries::Column column = series().column(theta(x.x(), x.y(), t));
-    const ModeSeries::Velocity v = series().velocity(column, x.z());
-    const double u = v.along - celerity();
-    return rho() * (bernoulli_ - gravity() * x.z() - 0.5 * (u * u + v.up * v.up));
-  }
-
- private:
-  double bernoulli_;  ///< R less g d: heights from the mean level [m2/s2]
-};
-
 }  // namespace
 
 std::unique_ptr<const WaveField> make_stokes_wave(const RegularWaveSpec& spec) {
@@ -139,7 +123,7 @@ std::unique_ptr<const WaveField> make_stokes_wave(const RegularWaveSpec& spec) {
   const double current = c - s.mean_speed * speed;
   const double transport = c * spec.depth - (s.flux + s.mean_speed * kd) * speed / k;
   const RegularWave::Shape shape{length, length / c, c, crest, trough, current, transport};
-  return std::make_unique<StokesWave>(spec, shape, ModeSeries(k, spec.depth, crest, current, elevation, velocity),
+  return std::make_unique<BernoulliWave>(spec, shape, ModeSeries(k, spec.depth, crest, current, elevation, velocity),
                                       s.head * spec.gravity / k);
 }
 

@@ -264,31 +264,6 @@ StreamFunctionSolution solve_stream_function(const StreamFunctionProblem& p) {
   return s;
 }
 
-namespace {
-
-class StreamFunctionWave final : public RegularWave {
- public:
-  StreamFunctionWave(const RegularWaveSpec& spec, const StreamFunctionSolution& s)
-      : RegularWave(spec,
-                    {s.length, s.period, s.celerity, s.crest, s.trough, s.celerity - s.mean_speed,
-                     s.celerity * spec.depth - s.volume_flux},
-                    ModeSeries(s.wave_number, spec.depth, s.crest, s.celerity - s.mean_speed,
-                               s.elevation_modes, s.velocity_modes)),
-        bernoulli_(s.bernoulli) {}
-
-  double pressure(const Vec3& x, double t) const override {
-    ModeSeries::Column column = series().column(theta(x.x(), x.y(), t));
-    const ModeSeries::Velocity v = series().velocity(column, x.z());
-    const double u = v.along - celerity();
-    return rho() * (bernoulli_ - gravity() * x.z() - 0.5 * (u * u + v.up * v.up));
-  }
-
- private:
-  double bernoulli_;
-};
-
-}  // namespace
-
 std::unique_ptr<const WaveField> make_stream_function_wave(const RegularWaveSpec& spec) {
   StreamFunctionProblem p;
   p.height = spec.height;
@@ -297,7 +272,12 @@ std::unique_ptr<const WaveField> make_stream_function_wave(const RegularWaveSpec
   p.length = spec.length;
   p.gravity = spec.gravity;
   p.mean_flow = spec.mean_flow;
-  return std::make_unique<StreamFunctionWave>(spec, solve_stream_function(p));
+  const StreamFunctionSolution s = solve_stream_function(p);
+  const double current = s.celerity - s.mean_speed;
+  const RegularWave::Shape shape{s.length, s.period,  s.celerity, s.crest,
+                                 s.trough, current, s.celerity * spec.depth - s.volume_flux};
+  return std::make_unique<BernoulliWave>(
+      spec, shape, ModeSeries(s.wave_number, spec.depth, s.crest, current, s.elevation_modes, s.velocity_modes), s.bernoulli);
 }
 
 }  // namespace seaway::waves

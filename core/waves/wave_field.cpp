@@ -34,6 +34,16 @@ Vec3 RegularWave::velocity(const Vec3& x, double t) const {
   return {v.along * cos_heading_, v.along * sin_heading_, v.up};
 }
 
+BernoulliWave::BernoulliWave(const RegularWaveSpec& spec, const Shape& shape, ModeSeries series, double bernoulli)
+    : RegularWave(spec, shape, std::move(series)), bernoulli_(bernoulli) {}
+
+double BernoulliWave::pressure(const Vec3& x, double t) const {
+  ModeSeries::Column column = series().column(theta(x.x(), x.y(), t));
+  const ModeSeries::Velocity v = series().velocity(column, x.z());
+  const double u = v.along - celerity();
+  return rho() * (bernoulli_ - gravity() * x.z() - 0.5 * (u * u + v.up * v.up));
+}
+
 void RegularWave::column_velocity(double x, double y, double t, std::span<const double> z,
                                   std::span<Vec3> velocity) const {
   SEAWAY_ASSERT(z.size() == velocity.size());
