@@ -86,20 +86,24 @@ class PathReporter final : public google::protobuf::util::MessageDifferencer::Re
 
 }  // namespace
 
+std::string serialise(const google::protobuf::Message& message) {
+  std::string out;
+  {
+    google::protobuf::io::StringOutputStream stream(&out);
+    google::protobuf::io::CodedOutputStream coded(&stream);
+    coded.SetSerializationDeterministic(true);
+    message.SerializeToCodedStream(&coded);
+  }
+  return out;
+}
+
 std::string encode_spec(const v1::Case& message, const Files& files) {
   v1::CreateJobRequest spec;
   *spec.mutable_case_() = message;
   std::map<std::string, const v1::CaseFile*> sorted;
   for (const v1::CaseFile& file : files) sorted.emplace(file.name(), &file);
   for (const auto& [name, file] : sorted) *spec.add_files() = *file;
-  std::string out;
-  {
-    google::protobuf::io::StringOutputStream stream(&out);
-    google::protobuf::io::CodedOutputStream coded(&stream);
-    coded.SetSerializationDeterministic(true);
-    spec.SerializeToCodedStream(&coded);
-  }
-  return out;
+  return serialise(spec);
 }
 
 v1::CreateJobRequest decode_spec(const std::string& bytes) {

@@ -13,6 +13,9 @@ namespace seaway::jobs {
 
 using Files = google::protobuf::RepeatedPtrField<v1::CaseFile>;
 
+/// Bytes of a message that are the same for equal messages: digests are taken of them.
+std::string serialise(const google::protobuf::Message& message);
+
 /// What is stored of a submitted job: case and files, nothing of the request around them.
 std::string encode_spec(const v1::Case& message, const Files& files);
 v1::CreateJobRequest decode_spec(const std::string& spec);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sweeps: one request becomes many jobs that differ in wave or condition.
 #include <fmt/format.h>
-#include <google/protobuf/io/coded_stream.h>
-#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "server/convert/input_error.hpp"
 #include "server/jobs/queue.hpp"
 #include "server/jobs/requests.hpp"
+#include "server/jobs/submission.hpp"
 
 namespace seaway::jobs {
 namespace {
@@ -25,14 +24,7 @@ std::string encode_sweep(const v1::CreateSweepRequest& request) {
   v1::CreateSweepRequest spec = request;
   spec.clear_request_id();
   spec.clear_validate_only();
-  std::string out;
-  {
-    google::protobuf::io::StringOutputStream stream(&out);
-    google::protobuf::io::CodedOutputStream coded(&stream);
-    coded.SetSerializationDeterministic(true);
-    spec.SerializeToCodedStream(&coded);
-  }
-  return out;
+  return serialise(spec);
 }
 
 void check_values(const std::string& field, const Values& values) {

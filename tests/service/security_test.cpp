@@ -16,18 +16,7 @@ namespace {
 using namespace seaway::testing;
 using client::Credentials;
 using client::JobClient;
-using client::RpcError;
 using grpc::StatusCode;
-
-template <class F>
-StatusCode status_of(F call) {
-  try {
-    call();
-  } catch (const RpcError& error) {
-    return error.status();
-  }
-  return StatusCode::OK;
-}
 
 class Security : public ::testing::Test {
  protected:

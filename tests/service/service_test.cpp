@@ -20,16 +20,6 @@ using client::JobClient;
 using client::RpcError;
 using grpc::StatusCode;
 
-template <class F>
-StatusCode status_of(F call) {
-  try {
-    call();
-  } catch (const RpcError& error) {
-    return error.status();
-  }
-  return StatusCode::OK;
-}
-
 TEST(Service, RunsACaseFromSubmitToResults) {
   TestService service;
   JobClient client(service.server->address());

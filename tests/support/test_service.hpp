@@ -13,6 +13,17 @@
 
 namespace seaway::testing {
 
+/// The status that a call of a client ended with.
+template <class F>
+grpc::StatusCode status_of(F call) {
+  try {
+    call();
+  } catch (const client::RpcError& error) {
+    return error.status();
+  }
+  return grpc::StatusCode::OK;
+}
+
 class TestService {
  public:
   explicit TestService(FakeOptions fake = {}, rpc::ServerSettings settings = {}) : fake_(std::move(fake)), settings_(std::move(settings)) {
