@@ -2,29 +2,22 @@
 #include "proto/analysis_text.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <vector>
 
 #include "proto/report_text.hpp"
+#include "proto/text.hpp"
 
 namespace seaway::report_text {
 namespace {
 
 using Row = std::vector<std::string>;
 
-std::string number(double value, const char* format) {
-  std::array<char, 64> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, value);
-  return buffer.data();
-}
-
-std::string number(double value) { return number(value, "%.4g"); }
+std::string number(double value) { return formatted(value, "%.4g"); }
 
 /// 1.515 +- 0.002 s
 std::string estimate(const v1::Estimate& e, const std::string& unit) {
-  std::string text = number(e.value(), "%.5g");
-  if (e.has_interval()) text += " +- " + number(e.interval(), "%.2g");
+  std::string text = formatted(e.value(), "%.5g");
+  if (e.has_interval()) text += " +- " + formatted(e.interval(), "%.2g");
   return unit.empty() ? text : text + " " + unit;
 }
 
@@ -32,8 +25,8 @@ std::string peaks_table(const v1::DecayReport& r) {
   std::vector<Row> rows{{"turning point", "time", "from the mean", "period", "loss", "mean angle", "damping ratio"}};
   const std::string unit = " " + r.unit();
   for (const auto& p : r.peaks())
-    rows.push_back({std::to_string(p.index()), number(p.time_s(), "%.3f s"), number(p.angle(), "%.3f") + unit,
-                    p.has_period_s() ? number(p.period_s(), "%.4f s") : "-", p.has_loss() ? number(p.loss()) + unit : "-",
+    rows.push_back({std::to_string(p.index()), formatted(p.time_s(), "%.3f s"), formatted(p.angle(), "%.3f") + unit,
+                    p.has_period_s() ? formatted(p.period_s(), "%.4f s") : "-", p.has_loss() ? number(p.loss()) + unit : "-",
                     p.has_mean_angle() ? number(p.mean_angle()) + unit : "-",
                     p.has_damping_ratio() ? number(p.damping_ratio()) : "-"});
   return align(rows);
@@ -42,7 +35,7 @@ std::string peaks_table(const v1::DecayReport& r) {
 std::string cycles_table(const v1::DecayReport& r) {
   std::vector<Row> rows{{"cycle", "begins at", "period", "damping ratio"}};
   for (const auto& c : r.cycles())
-    rows.push_back({std::to_string(c.number()), number(c.angle(), "%.3f ") + r.unit(), number(c.period_s(), "%.4f s"),
+    rows.push_back({std::to_string(c.number()), formatted(c.angle(), "%.3f ") + r.unit(), formatted(c.period_s(), "%.4f s"),
                     number(c.damping_ratio())});
   return align(rows);
 }
@@ -71,8 +64,8 @@ void add_motion(const v1::MotionResponse* m, Row& row) {
     return;
   }
   row.push_back(number(m->amplitude()) + " " + m->unit());
-  row.push_back(number(m->rao(), "%.3f") + " +- " + number(m->rao_scatter(), "%.3f"));
-  row.push_back(number(m->phase_deg(), "%.1f deg"));
+  row.push_back(formatted(m->rao(), "%.3f") + " +- " + formatted(m->rao_scatter(), "%.3f"));
+  row.push_back(formatted(m->phase_deg(), "%.1f deg"));
 }
 
 }  // namespace
@@ -112,8 +105,8 @@ std::string rao_table(const v1::RaoReport& r) {
   for (const auto& p : r.points()) {
     Row row{p.source()};
     if (cases) row.push_back(p.case_name());
-    row.insert(row.end(), {number(p.period_s(), "%.3f s"), number(p.wave_height_m(), "%.4g m"), number(p.heading_deg(), "%.4g deg"),
-                           number(p.wave_length_m(), "%.3f m"), number(p.wave_slope_deg(), "%.3f deg")});
+    row.insert(row.end(), {formatted(p.period_s(), "%.3f s"), formatted(p.wave_height_m(), "%.4g m"), formatted(p.heading_deg(), "%.4g deg"),
+                           formatted(p.wave_length_m(), "%.3f m"), formatted(p.wave_slope_deg(), "%.3f deg")});
     for (const auto& name : motions) add_motion(find(p, name), row);
     rows.push_back(std::move(row));
     if (!p.message().empty()) remarks += p.source() + ": " + p.message() + "\n";

@@ -2,20 +2,14 @@
 #include "proto/report_text.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <vector>
+
+#include "proto/text.hpp"
 
 namespace seaway::report_text {
 namespace {
 
 using Row = std::vector<std::string>;
-
-std::string number(double value, const char* format) {
-  std::array<char, 64> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, value);
-  return buffer.data();
-}
 
 std::string grouped(std::int64_t n) {
   std::string text = std::to_string(n);
@@ -33,7 +27,7 @@ const v1::MotionAmplitude* motion(const v1::StageReport& stage, const std::strin
 std::string amplitude(const v1::StageReport& stage, const std::string& channel) {
   const auto* m = motion(stage, channel);
   if (m == nullptr) return "-";
-  return m->unit() == "m" ? number(1000 * m->amplitude(), "%.2f mm") : number(m->amplitude(), "%.2f ") + m->unit();
+  return m->unit() == "m" ? formatted(1000 * m->amplitude(), "%.2f mm") : formatted(m->amplitude(), "%.2f ") + m->unit();
 }
 
 /// Phases in the order of the first stage that has them.
@@ -87,32 +81,32 @@ std::string stage_table(const google::protobuf::RepeatedPtrField<v1::StageReport
   std::vector<Row> rows;
   rows.push_back(row("stage", stages, [](const S& s) { return s.name(); }));
   rows.push_back(row("cells", stages, [](const S& s) { return grouped(s.cell_count()); }));
-  rows.push_back(row("finest cell", stages, [](const S& s) { return number(1000 * s.finest_cell_m(), "%.4g mm"); }));
-  rows.push_back(row("time step", stages, [](const S& s) { return number(1000 * s.dt_s(), "%.4g ms"); }));
+  rows.push_back(row("finest cell", stages, [](const S& s) { return formatted(1000 * s.finest_cell_m(), "%.4g mm"); }));
+  rows.push_back(row("time step", stages, [](const S& s) { return formatted(1000 * s.dt_s(), "%.4g ms"); }));
   rows.push_back(row("steps", stages, [&](const S& s) { return done(s, grouped(s.step_count())); }));
   rows.push_back(row("time", stages, [&](const S& s) {
-    return number(s.start_time_s(), "%.2f") + " - " + done(s, number(s.end_time_s(), "%.2f s"));
+    return formatted(s.start_time_s(), "%.2f") + " - " + done(s, formatted(s.end_time_s(), "%.2f s"));
   }));
   rows.push_back(row("converged", stages, [&](const S& s) { return done(s, s.converged() ? "yes" : "no"); }));
   for (const std::string& phase : phases_of(stages)) {
     std::string title = "CPU s ";
     title += phase;
-    rows.push_back(row(title, stages, [&](const S& s) { return done(s, number(phase_cpu(s, phase), "%.2f")); }));
+    rows.push_back(row(title, stages, [&](const S& s) { return done(s, formatted(phase_cpu(s, phase), "%.2f")); }));
   }
-  rows.push_back(row("CPU s in all", stages, [&](const S& s) { return done(s, number(s.cpu_s(), "%.2f")); }));
-  rows.push_back(row("wall time", stages, [&](const S& s) { return done(s, number(s.wall_s(), "%.1f s")); }));
+  rows.push_back(row("CPU s in all", stages, [&](const S& s) { return done(s, formatted(s.cpu_s(), "%.2f")); }));
+  rows.push_back(row("wall time", stages, [&](const S& s) { return done(s, formatted(s.wall_s(), "%.1f s")); }));
   rows.push_back(row("mapping", stages, [](const S& s) {
-    return s.has_mapping() ? s.mapping().method() + number(s.mapping().cpu_s(), " %.3f s") : std::string("-");
+    return s.has_mapping() ? s.mapping().method() + formatted(s.mapping().cpu_s(), " %.3f s") : std::string("-");
   }));
   rows.push_back(row("pressure iter.", stages, [&](const S& s) {
-    return done(s, number(s.mean_pressure_iterations(), "%.1f") + number(s.max_pressure_iterations(), " (max %.0f)"));
+    return done(s, formatted(s.mean_pressure_iterations(), "%.1f") + formatted(s.max_pressure_iterations(), " (max %.0f)"));
   }));
-  rows.push_back(row("volume drift", stages, [&](const S& s) { return done(s, number(s.volume_drift(), "%.1e")); }));
+  rows.push_back(row("volume drift", stages, [&](const S& s) { return done(s, formatted(s.volume_drift(), "%.1e")); }));
   if (std::any_of(stages.begin(), stages.end(), [](const S& s) { return s.wall_layers_size() > 0; }))
     rows.push_back(row("y+ at the hull", stages, [](const S& s) {
-      return s.wall_layers_size() > 0 ? number(s.wall_layers(0).y_plus_mean(), "%.0f") +
-                                            number(s.wall_layers(0).y_plus_min(), " (%.0f") +
-                                            number(s.wall_layers(0).y_plus_max(), " - %.0f)")
+      return s.wall_layers_size() > 0 ? formatted(s.wall_layers(0).y_plus_mean(), "%.0f") +
+                                            formatted(s.wall_layers(0).y_plus_min(), " (%.0f") +
+                                            formatted(s.wall_layers(0).y_plus_max(), " - %.0f)")
                                       : std::string("-");
     }));
   rows.push_back(row("roll amplitude", stages, [](const S& s) { return amplitude(s, "roll"); }));
@@ -122,21 +116,21 @@ std::string stage_table(const google::protobuf::RepeatedPtrField<v1::StageReport
 
 std::string hydrostatics(const v1::Hydrostatics& h, int dimension) {
   const bool section = dimension == 2;
-  const auto mm = [](double metres) { return number(1000 * metres, "%.1f mm"); };
-  std::vector<Row> rows{{"mass", number(h.mass(), "%.4g") + (section ? " kg/m" : " kg")},
-                {"displaced volume", number(h.displaced_volume(), "%.5g") + (section ? " m2" : " m3")},
+  const auto mm = [](double metres) { return formatted(1000 * metres, "%.1f mm"); };
+  std::vector<Row> rows{{"mass", formatted(h.mass(), "%.4g") + (section ? " kg/m" : " kg")},
+                {"displaced volume", formatted(h.displaced_volume(), "%.5g") + (section ? " m2" : " m3")},
                 {"draft", mm(h.draft_m())},
-                {"heel", number(h.heel_deg(), "%.2f deg")},
+                {"heel", formatted(h.heel_deg(), "%.2f deg")},
                 {"KB", mm(h.kb_m())},
                 {"BM", mm(h.bm_m())},
                 {"GM", mm(h.gm_m())},
                 {"draft, intact", mm(h.intact_draft_m())},
                 {"GM, intact", mm(h.intact_gm_m())},
-                {"roll period, dry", number(h.natural_roll_period_dry_s(), "%.3f s")}};
+                {"roll period, dry", formatted(h.natural_roll_period_dry_s(), "%.3f s")}};
   if (!section) {
-    rows.push_back({"trim, bow down", number(h.trim_deg(), "%.3f deg")});
+    rows.push_back({"trim, bow down", formatted(h.trim_deg(), "%.3f deg")});
     rows.push_back({"LCB", mm(h.lcb_m())});
-    rows.push_back({"wetted surface", number(h.wetted_surface_m2(), "%.4g m2")});
+    rows.push_back({"wetted surface", formatted(h.wetted_surface_m2(), "%.4g m2")});
   }
   return align(rows);
 }
@@ -145,7 +139,7 @@ std::string cost(const google::protobuf::RepeatedPtrField<v1::StageEstimate>& st
   std::vector<Row> rows{{"stage", "cells", "steps", "time step", "CPU time"}};
   double total = 0;
   for (const auto& s : stages) {
-    rows.push_back({s.name(), grouped(s.cell_count()), grouped(s.step_count()), number(1000 * s.dt_s(), "%.3g ms"),
+    rows.push_back({s.name(), grouped(s.cell_count()), grouped(s.step_count()), formatted(1000 * s.dt_s(), "%.3g ms"),
                     duration(s.cpu_s())});
     total += s.cpu_s();
   }
@@ -165,8 +159,8 @@ std::string diagnostics(const google::protobuf::RepeatedPtrField<v1::Diagnostic>
 
 std::string duration(double seconds) {
   if (seconds < 0) return "?";
-  if (seconds < 10) return number(seconds, "%.1f s");
-  if (seconds < 60) return number(seconds, "%.0f s");
+  if (seconds < 10) return formatted(seconds, "%.1f s");
+  if (seconds < 60) return formatted(seconds, "%.0f s");
   const auto whole = static_cast<long>(seconds + 0.5);
   if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
   return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";

@@ -11,6 +11,7 @@
 #include "client/plot/plan.hpp"
 #include "client/plot/section.hpp"
 #include "proto/json.hpp"
+#include "proto/text.hpp"
 
 namespace seaway::client {
 namespace {

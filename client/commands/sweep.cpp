@@ -8,6 +8,7 @@
 #include "client/commands/commands.hpp"
 #include "proto/json.hpp"
 #include "proto/report_text.hpp"
+#include "proto/text.hpp"
 
 namespace seaway::client {
 namespace {
@@ -20,11 +21,7 @@ struct Options {
   bool hold = false, validate_only = false;
 };
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
+std::string number(double value) { return formatted(value, "%.6g"); }
 
 /// queued 3, running 1
 std::string counts_text(const v1::Sweep& sweep) {

@@ -69,13 +69,4 @@ void run_gnuplot(const std::string& script, const std::map<std::string, std::str
   throw ClientError(exit_failed, "gnuplot failed: " + text.str().substr(0, 500));
 }
 
-std::string gnuplot_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '\'') out += '\'';  // doubled inside single quotes
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out;
-}
-
 }  // namespace seaway::client

@@ -11,7 +11,4 @@ namespace seaway::client {
 /// ClientError if gnuplot is missing or complains.
 void run_gnuplot(const std::string& script, const std::map<std::string, std::string>& data);
 
-/// A text inside a single-quoted string of a script, without markup.
-std::string gnuplot_text(const std::string& text);
-
 }  // namespace seaway::client

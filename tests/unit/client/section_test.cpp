@@ -5,6 +5,7 @@
 
 #include "client/job_client.hpp"
 #include "client/plot/gnuplot.hpp"
+#include "proto/text.hpp"
 
 namespace seaway::client {
 namespace {
