@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/transfer/map_flow.hpp"
+#include "core/waves/wave_field.hpp"
 #include "proto/yaml.hpp"
 #include "server/convert/case.hpp"
 
@@ -97,6 +98,26 @@ sim::Case barge_case(double h, double roll) {
   sim::Case c = barge_in_plain_tank(h, roll);
   c.zones.generation_length = c.zones.absorption_length = 1.5;  // towards calm water at both ends
   c.zones.rate = 6;
+  return c;
+}
+
+sim::Case WaveBox::with_columns(int columns) {
+  waves::RegularWaveSpec spec;
+  spec.height = height;
+  spec.period = period;
+  spec.depth = depth;
+  const double length = waves::make_wave(spec)->length();
+  sim::Case c;
+  c.base_cell = length / 48;
+  c.tank.lower = {0, -length / 2, -depth};
+  c.tank.upper = {0, length / 2, 1.05};
+  c.tank.periodic = {false, true, false};
+  c.wave.kind = sim::Wave::Kind::regular;
+  c.wave.height = height;
+  c.wave.length = length;
+  sim::Stage stage;
+  stage.mesh.surface = {{length / columns, 0.06}};
+  c.stages = {stage};
   return c;
 }
 

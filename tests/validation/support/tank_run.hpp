@@ -52,6 +52,13 @@ sim::Case barge_case(double h, double roll);
 /// The same without damping zones, in a closed book: nothing enters or leaves the tank.
 sim::Case barge_in_plain_tank(double h, double roll);
 
+/// The wave of the DTMB 5415 tests in a periodic box of one wavelength; cells at the surface are 1/columns of it, columns a
+/// power of two times 48 (48 base cells a wavelength are whole blocks).
+struct WaveBox {
+  static constexpr double height = 0.061, period = 1.4, depth = 2.79;  ///< [m], [s], [m]
+  static sim::Case with_columns(int columns);
+};
+
 /// A case of client/examples; by default that of ./quickstart: damaged section in beam waves.
 sim::Case example_case(const std::string& file = "dtmb5415_section_beam_waves.yaml");
 

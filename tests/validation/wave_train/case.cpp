@@ -3,7 +3,6 @@
 #include <cmath>
 #include <complex>
 
-#include "core/waves/wave_field.hpp"
 #include "tests/validation/cases.hpp"
 #include "tests/validation/support/signal.hpp"
 #include "tests/validation/support/tank_run.hpp"
@@ -11,7 +10,7 @@
 namespace seaway::validation {
 namespace {
 
-constexpr double height = 0.061, period = 1.4, depth = 2.79;
+constexpr double height = WaveBox::height, period = WaveBox::period;
 
 /// Surface over one wavelength.
 struct Profile {
@@ -37,27 +36,9 @@ Profile profile_of(const Section& run, int columns) {
 }  // namespace
 
 void run_wave_train(const Context& context, Results& results) {
-  waves::RegularWaveSpec spec;
-  spec.height = height;
-  spec.period = period;
-  spec.depth = depth;
-  const double length = waves::make_wave(spec)->length();
-
-  // 48 base cells a wavelength are whole blocks; four halvings give 4.0 mm, 15.3 cells a height
-  // (one fewer in the quick suite), coarser than the bars allow.
-  const int halvings = context.quick() ? 3 : 4;
-  const int columns = 48 << halvings;
-  sim::Case c;
-  c.base_cell = length / 48;
-  c.tank.lower = {0, -length / 2, -depth};
-  c.tank.upper = {0, length / 2, 1.05};
-  c.tank.periodic = {false, true, false};
-  c.wave.kind = sim::Wave::Kind::regular;
-  c.wave.height = height;
-  c.wave.length = length;
-  sim::Stage stage;
-  stage.mesh.surface = {{length / columns, 0.06}};
-  c.stages = {stage};
+  // Four halvings give 4.0 mm, 15.3 cells a height (one fewer in the quick suite), coarser than the bars allow.
+  const int columns = 48 << (context.quick() ? 3 : 4);
+  const sim::Case c = WaveBox::with_columns(columns);
   const auto run = start(c, context.threads);
 
   const double duration = 10 * period;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/waves/wave_field.hpp"
 #include "tests/validation/cases.hpp"
 #include "tests/validation/support/one_fluid.hpp"
 #include "tests/validation/support/signal.hpp"
@@ -12,7 +11,7 @@ namespace {
 
 using Model = sim::Turbulence::Model;
 
-constexpr double height = 0.061, period = 1.4, depth = 2.79;
+constexpr double height = WaveBox::height, period = WaveBox::period;
 
 struct Train {
   double loss = 0;           ///< of the crest-to-trough height
@@ -43,24 +42,9 @@ double crest_to_trough(const Section& run, int columns) {
 }
 
 Train run_train(Model model, int halvings, double periods, int threads) {
-  waves::RegularWaveSpec spec;
-  spec.height = height;
-  spec.period = period;
-  spec.depth = depth;
-  const double length = waves::make_wave(spec)->length();
   const int columns = 48 << halvings;
-  sim::Case c;
-  c.base_cell = length / 48;
-  c.tank.lower = {0, -length / 2, -depth};
-  c.tank.upper = {0, length / 2, 1.05};
-  c.tank.periodic = {false, true, false};
-  c.wave.kind = sim::Wave::Kind::regular;
-  c.wave.height = height;
-  c.wave.length = length;
+  sim::Case c = WaveBox::with_columns(columns);
   c.turbulence.model = model;
-  sim::Stage stage;
-  stage.mesh.surface = {{length / columns, 0.06}};
-  c.stages = {stage};
   const auto run = start(c, threads);
   Train out;
   const double first = crest_to_trough(*run, columns);
