@@ -231,6 +231,17 @@ double HullMask<Dim>::submerged_solid(const IVec<Dim>& cell, const std::array<do
 }
 
 template <int Dim>
+Vec<Dim> HullMask<Dim>::wall_area(const IVec<Dim>& cell) const {
+  const auto at = static_cast<std::size_t>(window_.at(cell));
+  Vec<Dim> area;
+  for (int a = 0; a < Dim; ++a) {
+    const auto& solid = solid_face_[static_cast<std::size_t>(a)];
+    area[a] = (solid[at] - solid[at + static_cast<std::size_t>(window_.stride(a))]) * window_.face_area(a);
+  }
+  return area;
+}
+
+template <int Dim>
 linear::RigidRows<Dim> HullMask<Dim>::rigid_rows(const HullGeometry<Dim>& g) const {
   linear::RigidRows<Dim> rows;
   window_.for_cells([&](const IVec<Dim>& i) {

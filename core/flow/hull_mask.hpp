@@ -54,6 +54,9 @@ class HullMask {
   const std::vector<double>& fluid_fraction() const { return theta_; }
   /// Solid part of each face at the half-step pose.
   const std::vector<double>& solid_face(int axis) const { return solid_face_[static_cast<std::size_t>(axis)]; }
+  /// Wall in a cell at the half-step pose, area times normal into the fluid: what closes the open parts of the cell's
+  /// faces [m^(Dim-1)].
+  Vec<Dim> wall_area(const IVec<Dim>& cell) const;
   /// Whether the blocks of the window changed in the last update.
   bool moved() const { return moved_; }
 

@@ -122,19 +122,6 @@ typename HullWalls<Dim>::Look HullWalls<Dim>::look(const HullMask<Dim>& mask, co
   return out;
 }
 
-/// Wall in the cell times its normal into the fluid: what closes the open parts of the cell's faces.
-template <int Dim>
-Vec<Dim> HullWalls<Dim>::wall_area(const HullMask<Dim>& mask, const IVec<Dim>& cell) const {
-  const HullWindow<Dim>& window = mask.window();
-  const auto at = static_cast<std::size_t>(window.at(cell));
-  Vec<Dim> area;
-  for (int a = 0; a < Dim; ++a) {
-    const auto& solid = mask.solid_face(a);
-    area[a] = (solid[at] - solid[at + static_cast<std::size_t>(window.stride(a))]) * window.face_area(a);
-  }
-  return area;
-}
-
 /// tau_w / rho [m2/s2].
 template <int Dim>
 double HullWalls<Dim>::stress_of(const HullMask<Dim>& mask, const Look& at) const {
@@ -179,7 +166,7 @@ void HullWalls<Dim>::find_stress(const HullMask<Dim>& mask, const FlowState<Dim>
   for_box<Dim>(filled<Dim>(3), upper, [&](const IVec<Dim>& i) {
     const auto at = static_cast<std::size_t>(window.at(i));
     if (!(std::abs(phi[at]) < reach) || window.tile_of(i) < 0) return;
-    const Vec<Dim> area = wall_area(mask, i);
+    const Vec<Dim> area = mask.wall_area(i);
     const bool has_wall = area.squaredNorm() > 1e-12 * window.face_area(0) * window.face_area(0);
     const bool beside = state.turbulent() && theta[at] >= 0.5;
     if (!has_wall && !beside) return;

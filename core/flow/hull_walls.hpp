@@ -52,7 +52,6 @@ class HullWalls {
   };
   struct Look;
   Look look(const HullMask<Dim>& mask, const IVec<Dim>& cell, const motion::Twist<Dim>& twist) const;
-  Vec<Dim> wall_area(const HullMask<Dim>& mask, const IVec<Dim>& cell) const;
   Vec<Dim> velocity_at(const HullWindow<Dim>& window, const Vec<Dim>& x) const;
   double stress_of(const HullMask<Dim>& mask, const Look& at) const;
   void spread(const HullMask<Dim>& mask, const Piece& piece, int axis, std::vector<double>& sink) const;

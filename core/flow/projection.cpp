@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/field/restrict.hpp"
 #include "core/flow/plic.hpp"
@@ -286,13 +287,15 @@ void Projection<Dim>::correct(FlowState<Dim>& state, const CellField<double, Dim
 
 template <int Dim>
 void Projection<Dim>::mixture_velocity(FlowState<Dim>& state, const HullMask<Dim>* mask,
-                                       const motion::Twist<Dim>& twist) const {
+                                       const motion::Twist<Dim>& twist, const SlipFlux<Dim>* slip) const {
   for (int axis = 0; axis < Dim; ++axis) {
     state.w.data(axis) = state.u.data(axis);
     if (!mask) continue;
     std::vector<double> u, w;
     mask->window().load_faces(state.u, axis, u);
     mask->mixture_velocity(axis, twist, u, w);
+    if (slip && !slip->through(axis).empty())
+      std::transform(w.begin(), w.end(), slip->through(axis).begin(), w.begin(), std::plus<>());
     mask->window().store_faces(w, axis, state.w);
   }
   field::restrict_faces<double, Dim>(forest_, state.w);
@@ -320,8 +323,8 @@ template <int Dim>
 linear::SolveReport Projection<Dim>::project(FlowState<Dim>& state, const HullMask<Dim>* mask,
                                              motion::Twist<Dim>& twist,
                                              const motion::DofMatrix<Dim>& inverse_mass, double dt,
-                                             const ProjectionOptions& options) {
-  mixture_velocity(state, mask, twist);
+                                             const ProjectionOptions& options, const SlipFlux<Dim>* slip) {
+  mixture_velocity(state, mask, twist, slip);
   right_side(state, dt, rhs_);
   if (closed_) {  // consistent up to rounding: keep the mean out
     double volume = 0;
@@ -349,7 +352,7 @@ linear::SolveReport Projection<Dim>::project(FlowState<Dim>& state, const HullMa
   correct(state, state.p, dt, false);
   if (moves) twist += dt * (inverse_mass * rigid.gather(state.p.data()));
   field::restrict_cells<double, Dim>(forest_, state.p);
-  mixture_velocity(state, mask, twist);
+  mixture_velocity(state, mask, twist, slip);
   return report;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/flow/flow_state.hpp"
 #include "core/flow/hull_mask.hpp"
+#include "core/flow/slip_flux.hpp"
 #include "core/linear/conjugate_gradient.hpp"
 
 namespace seaway::flow {
@@ -32,11 +33,12 @@ class Projection {
   void prepare(const FlowState<Dim>& state, const HullMask<Dim>* mask,
                const std::vector<char>* free_cells = nullptr);
 
-  /// After prepare: projects state.u with the hull's twist (both changed), sets state.p and state.w.
+  /// After prepare: projects state.u with the hull's twist (both changed), sets state.p and state.w. `slip` (optional)
+  /// is part of w.
   /// Boundary values of u on fixed sides are kept. Parents of u, w, p restricted on return.
   linear::SolveReport project(FlowState<Dim>& state, const HullMask<Dim>* mask, motion::Twist<Dim>& twist,
                               const motion::DofMatrix<Dim>& inverse_mass, double dt,
-                              const ProjectionOptions& options);
+                              const ProjectionOptions& options, const SlipFlux<Dim>* slip = nullptr);
 
   /// After prepare with the same free_cells (null: all free): makes state.w solenoidal by changing only what
   /// may change, u along with it; the pressure is left alone. What a closed set of free cells had in sum
@@ -45,7 +47,8 @@ class Projection {
                              const std::vector<char>* free_cells, double dt, const ProjectionOptions& options);
 
   /// w of (u, twist) on all faces, parents restricted.
-  void mixture_velocity(FlowState<Dim>& state, const HullMask<Dim>* mask, const motion::Twist<Dim>& twist) const;
+  void mixture_velocity(FlowState<Dim>& state, const HullMask<Dim>* mask, const motion::Twist<Dim>& twist,
+                        const SlipFlux<Dim>* slip = nullptr) const;
   /// Largest dt |div w|.
   double divergence(const FlowState<Dim>& state, double dt) const;
 

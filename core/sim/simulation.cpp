@@ -169,11 +169,14 @@ void Simulation<Dim>::kick(double dt, StepReport& report) {
     force += mask_->carried_weight(window_vof_, model_->fluids);
     if (walls_) force += friction_;
     body_.twist += dt * (inverse * force);
+    // The first pressure is not known beforehand.
+    if (step_ > 0) slip_flux_.find(*mask_, state_, body_.twist + dt * (inverse * rows_half.gather(state_.p.data())), dt);
   }
   clock_.charge("hull");
   projection_.prepare(state_, mask_.get());
   report.pressure = projection_.project(state_, mask_.get(), body_.twist, inverse, dt,
-                                        {c.numerics.pressure_tolerance, c.numerics.max_pressure_iterations});
+                                        {c.numerics.pressure_tolerance, c.numerics.max_pressure_iterations},
+                                        &slip_flux_);
   clock_.charge("pressure");
   if (!std::isfinite(report.pressure.residual_after)) {
     report.failed = true;

@@ -164,6 +164,7 @@ class Simulation {
   flow::FlowState<Dim> state_;
   flow::Advection<Dim> advection_;
   flow::Projection<Dim> projection_;
+  flow::SlipFlux<Dim> slip_flux_;
   flow::Viscosity<Dim> viscosity_;
   std::unique_ptr<flow::KEpsilon<Dim>> turbulence_;
   CellField<double, Dim> no_eddies_;  ///< nu_t = 0 for `laminar`; empty otherwise

@@ -35,7 +35,7 @@ Simulation<Dim>::Simulation(std::shared_ptr<const Model<Dim>> model, std::unique
                             const RunContext& context)
     : model_(std::move(model)), forest_(std::move(forest)), context_(context), state_(*forest_),
       advection_(*forest_, model_->fluids, model_->boundaries),
-      projection_(*forest_, model_->fluids, model_->boundaries),
+      projection_(*forest_, model_->fluids, model_->boundaries), slip_flux_(model_->fluids),
       viscosity_(*forest_, model_->fluids, model_->boundaries) {
   const Case& c = model_->description;
   if (model_->hull) {
