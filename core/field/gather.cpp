@@ -21,8 +21,8 @@ IVec<Dim> neighbour_offset(int entry) {
 
 template <class T>
 T minmod(T a, T b) {
-  if (!(a * b > 0)) return 0;
-  return std::abs(a) < std::abs(b) ? a : b;
+  const T smaller = std::abs(a) < std::abs(b) ? a : b;
+  return a * b > 0 ? smaller : T(0);
 }
 
 /// Ranges [lower, upper) of the entries that neighbour `off` supplies. `face_axis` < 0: cells.
@@ -58,13 +58,13 @@ template <class T, int Dim>
 struct CoarsePatch {
   static constexpr int half = BlockShape<Dim>::n / 2;
   static constexpr int edge = half + 5;
+  static constexpr std::array<int, 3> stride{1, edge, edge * edge};
   T data[Dim == 2 ? edge * edge : edge * edge * edge];
   static int at(const IVec<Dim>& i) {
-    int o = 0, m = 1;
-    for (int a = 0; a < Dim; ++a, m *= edge) o += (i[a] + 2) * m;
+    int o = 0;
+    for (int a = 0; a < Dim; ++a) o += (i[a] + 2) * stride[static_cast<std::size_t>(a)];
     return o;
   }
-  T operator()(const IVec<Dim>& i) const { return data[at(i)]; }
 };
 
 /// Range of the coarse entries that the interpolation of all wanted coarser neighbours reads.
@@ -99,70 +99,105 @@ void fill_patch(const Forest<Dim>& forest, int b, int face_axis, Source&& source
   const Block<Dim>& parent = forest.block(fine.parent);
   IVec<Dim> base{};  // lower corner of the block in the parent's cells
   for (int a = 0; a < Dim; ++a) base[a] = (fine.coord[a] & 1) * half;
-  for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
-    int entry = 0, power = 1;
+  const auto last = [&](int a) { return a == face_axis ? n : n - 1; };
+  const auto side_of = [&](int cell, int a) { return cell < 0 ? -1 : cell > last(a) ? 1 : 0; };
+  for_rows<Dim>(lower, upper, [&](const IVec<Dim>& row) {
     IVec<Dim> cell{};
-    for (int a = 0; a < Dim; ++a, power *= 3) {
-      cell[a] = base[a] + i[a];
-      const int last = a == face_axis ? n : n - 1;
-      int off = 0;
-      if (cell[a] < 0) off = -1;
-      else if (cell[a] > last) off = 1;
-      entry += (off + 1) * power;
+    int entry_of_row = 0, power = 3;
+    for (int a = 1; a < Dim; ++a, power *= 3) {
+      cell[a] = base[a] + row[a];
+      entry_of_row += (side_of(cell[a], a) + 1) * power;
     }
-    int nb = parent.neighbour[static_cast<std::size_t>(entry)];
-    if (nb < 0) {  // outside the tank, or two levels coarser: nearest value that is there
-      IVec<Dim> inside{};
-      for (int a = 0; a < Dim; ++a) inside[a] = std::clamp(cell[a], 0, a == face_axis ? n : n - 1);
-      patch.data[CoarsePatch<T, Dim>::at(i)] = source(fine.parent)[offset<Dim>(inside, strides)];
-      return;
+    T* out = patch.data + CoarsePatch<T, Dim>::at(row) - row[0];
+    // Along the row: what lies below the parent, in it, beyond it.
+    for (int i = lower[0]; i < upper[0];) {
+      const int side = side_of(base[0] + i, 0);
+      const int end = side < 0 ? std::min(upper[0], -base[0]) : side == 0 ? std::min(upper[0], last(0) + 1 - base[0]) : upper[0];
+      const int entry = entry_of_row + side + 1;
+      const int nb = parent.neighbour[static_cast<std::size_t>(entry)];
+      cell[0] = base[0] + i;
+      if (nb < 0) {  // outside the tank, or two levels coarser: nearest value that is there
+        IVec<Dim> inside{};
+        for (int a = 0; a < Dim; ++a) inside[a] = std::clamp(cell[a], 0, last(a));
+        const T* from = source(fine.parent) + offset<Dim>(inside, strides);
+        for (int k = i; k < end; ++k) out[k] = from[side == 0 ? k - i : 0];
+      } else {
+        const IVec<Dim> off = neighbour_offset<Dim>(entry);
+        IVec<Dim> there = cell;
+        for (int a = 0; a < Dim; ++a) there[a] -= off[a] * n;
+        const T* from = source(nb) + offset<Dim>(there, strides);
+        for (int k = i; k < end; ++k) out[k] = from[k - i];
+      }
+      i = end;
     }
-    const IVec<Dim> off = neighbour_offset<Dim>(entry);
-    for (int a = 0; a < Dim; ++a) cell[a] -= off[a] * n;
-    patch.data[CoarsePatch<T, Dim>::at(i)] = source(nb)[offset<Dim>(cell, strides)];
   });
 }
 
-template <class T, int Dim>
-T limited_slope(const CoarsePatch<T, Dim>& patch, const IVec<Dim>& c, int axis) {
-  IVec<Dim> lo = c, hi = c;
-  --lo[axis];
-  ++hi[axis];
-  return minmod(patch(c) - patch(lo), patch(hi) - patch(c));
+/// Limited slope at an entry of a coarse patch, `s`: the stride of its axis.
+template <class T>
+inline T limited_slope(const T* c, int s) {
+  return minmod(c[0] - c[-s], c[s] - c[0]);
 }
 
-/// Fine cell from the coarse patch: the coarse value plus limited slopes a quarter cell along each axis.
+/// Fine cells from the coarse patch: the coarse value plus limited slopes a quarter cell along each axis.
 template <class T, int Dim>
-T interpolate_cell(const CoarsePatch<T, Dim>& patch, const IVec<Dim>& i) {
-  IVec<Dim> c{};
-  for (int a = 0; a < Dim; ++a) c[a] = floor_half(i[a]);
-  T value = patch(c);
-  for (int a = 0; a < Dim; ++a) {
-    const T slope = limited_slope<T, Dim>(patch, c, a);
-    value += (i[a] - 2 * c[a] == 0 ? T(-0.25) : T(0.25)) * slope;
-  }
-  return value;
-}
-
-/// Fine face: on a coarse face plane as interpolate_cell across the other axes, midway the mean of two.
-template <class T, int Dim>
-T interpolate_face(const CoarsePatch<T, Dim>& patch, const IVec<Dim>& i, int axis) {
-  IVec<Dim> c{};
-  for (int a = 0; a < Dim; ++a) c[a] = floor_half(i[a]);
-  const bool between = i[axis] - 2 * c[axis] != 0;
-  T value = 0;
-  for (int side = 0; side <= (between ? 1 : 0); ++side) {
-    IVec<Dim> f = c;
-    f[axis] += side;
-    T v = patch(f);
+void interpolate_cells(const CoarsePatch<T, Dim>& patch, const IVec<Dim>& lower, const IVec<Dim>& upper, T* out) {
+  constexpr auto& stride = CoarsePatch<T, Dim>::stride;
+  for_rows<Dim>(lower, upper, [&](const IVec<Dim>& row) {
+    IVec<Dim> c{};
+    T quarter[Dim];
     for (int a = 0; a < Dim; ++a) {
-      if (a == axis) continue;
-      const T slope = limited_slope<T, Dim>(patch, f, a);
-      v += (i[a] - 2 * c[a] == 0 ? T(-0.25) : T(0.25)) * slope;
+      c[a] = floor_half(row[a]);
+      quarter[a] = row[a] - 2 * c[a] == 0 ? T(-0.25) : T(0.25);
     }
-    value += v;
+    c[0] = 0;
+    const T* line = patch.data + CoarsePatch<T, Dim>::at(c);
+    T* d = out + ScratchShape<Dim>::at(row) - row[0];
+    for (int i = lower[0]; i < upper[0]; ++i) {
+      const int half = floor_half(i);
+      const T* p = line + half;
+      T value = p[0] + (i - 2 * half == 0 ? T(-0.25) : T(0.25)) * limited_slope(p, 1);
+      for (int a = 1; a < Dim; ++a) value += quarter[a] * limited_slope(p, stride[static_cast<std::size_t>(a)]);
+      d[i] = value;
+    }
+  });
+}
+
+/// Fine faces: on a coarse face plane as interpolate_cells across the other axes, midway the mean of two.
+template <class T, int Dim, int Axis>
+void interpolate_faces(const CoarsePatch<T, Dim>& patch, const IVec<Dim>& lower, const IVec<Dim>& upper, T* out) {
+  constexpr auto& stride = CoarsePatch<T, Dim>::stride;
+  for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
+    IVec<Dim> c{};
+    T quarter[Dim];
+    for (int a = 0; a < Dim; ++a) {
+      c[a] = floor_half(i[a]);
+      quarter[a] = i[a] - 2 * c[a] == 0 ? T(-0.25) : T(0.25);
+    }
+    const auto on_plane = [&](const T* p) {
+      T v = p[0];
+      for (int a = 0; a < Dim; ++a)
+        if (a != Axis) v += quarter[a] * limited_slope(p, stride[static_cast<std::size_t>(a)]);
+      return v;
+    };
+    const T* p = patch.data + CoarsePatch<T, Dim>::at(c);
+    const T below = T(0) + on_plane(p);
+    out[ScratchShape<Dim>::at(i)] =
+        i[Axis] - 2 * c[Axis] == 0 ? below : T(0.5) * (below + on_plane(p + stride[Axis]));
+  });
+}
+
+/// Cells (face_axis < 0) or faces of an axis.
+template <class T, int Dim>
+void interpolate(const CoarsePatch<T, Dim>& patch, int face_axis, const IVec<Dim>& lower, const IVec<Dim>& upper, T* out) {
+  switch (face_axis) {
+    case 0: return interpolate_faces<T, Dim, 0>(patch, lower, upper, out);
+    case 1: return interpolate_faces<T, Dim, 1>(patch, lower, upper, out);
+    case 2:
+      if constexpr (Dim == 3) interpolate_faces<T, Dim, 2>(patch, lower, upper, out);
+      return;
+    default: return interpolate_cells<T, Dim>(patch, lower, upper, out);
   }
-  return between ? T(0.5) * value : value;
 }
 
 /// Mirrors what lies outside the tank, axis after axis, so that corners come out as well.
@@ -241,10 +276,7 @@ void gather(const Forest<Dim>& forest, int b, int layers, int face_axis, Source&
       fill_patch<T, Dim>(forest, b, face_axis, source, strides, patch_lower, patch_upper, patch);
       patch_filled = true;
     }
-    for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
-      out(i) = face_axis < 0 ? interpolate_cell<T, Dim>(patch, i)
-                             : interpolate_face<T, Dim>(patch, i, face_axis);
-    });
+    interpolate<T, Dim>(patch, face_axis, lower, upper, out.data);
     // The outer face planes may belong to a block of this level beside the coarse one: then its values count,
     // so that both blocks that share a face see the same surroundings.
     if (face_axis < 0 || off[face_axis] != 0) continue;

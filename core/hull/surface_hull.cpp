@@ -1,5 +1,7 @@
 #include "core/hull/surface_hull.hpp"
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 #include "core/hull/spaced_patch.hpp"
 #include "core/hull/surface_patch.hpp"
@@ -45,6 +47,11 @@ SurfaceHull::SurfaceHull(Ship ship, double spacing, double margin, double openin
     }
   }
   table_ = std::make_shared<DistanceGrid>(*solids_.front(), spacing, margin);
+  if (spaces_.empty()) return;
+  Box<3> box = compartment_bounds();
+  const Vec3 around = Vec3::Constant(24 * spacing);  // as far as cells of the solver ask, if they are not longer than 4 spacings
+  box = {(box.lower - around).cwiseMax(bounds_.lower), (box.upper + around).cwiseMin(bounds_.upper)};
+  map_ = SpaceMap(box, spacing, [this](const Vec3& x, double radius) { return common_space(x, radius); });
 }
 
 std::unique_ptr<HullPatch<3>> SurfaceHull::patch(const OrientedBox<3>& block) const {
@@ -79,6 +86,11 @@ int SurfaceHull::compartment_at(const Vec3& x) const {
 
 int SurfaceHull::space_near(const Vec3& x) const {
   if (spaces_.empty()) return 0;
+  const int mapped = map_.at(x);
+  return mapped != SpaceMap::unknown ? mapped : find_space(x);
+}
+
+int SurfaceHull::find_space(const Vec3& x) const {
   for (const Box<3>& box : opening_boxes_)
     if (holds(box, x)) return -1;
   const int inside = compartment_at(x);
@@ -94,6 +106,29 @@ int SurfaceHull::space_near(const Vec3& x) const {
     }
   }
   return best;
+}
+
+/// The space of all points within `radius` of x, or SpaceMap::unknown: no wall's surface and no side of an opening's box comes
+/// that near, and within solid the nearest space stays the nearest.
+int SurfaceHull::common_space(const Vec3& x, double radius) const {
+  for (const Box<3>& box : opening_boxes_) {
+    const Vec3 inside = (x - box.lower).cwiseMin(box.upper - x);
+    const double outside = (-inside).cwiseMax(0.0).norm();
+    if (outside <= radius && inside.minCoeff() <= radius) return SpaceMap::unknown;
+    if (outside == 0) return -1;
+  }
+  double nearest = outer_->distance(x, 1e300), second = 1e300;
+  bool in_space = false;
+  for (const Space& s : spaces_) {
+    const double d = s.tree[0]->distance(x, 1e300);
+    second = std::min(second, std::max(d, nearest));
+    nearest = std::min(nearest, d);
+    in_space = in_space || s.tree[0]->contains(x);
+  }
+  if (nearest <= radius) return SpaceMap::unknown;
+  const bool solid = !in_space && outer_->contains(x);
+  if (solid && second - nearest <= 2 * radius) return SpaceMap::unknown;
+  return find_space(x);
 }
 
 }  // namespace seaway::hull

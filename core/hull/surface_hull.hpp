@@ -7,6 +7,7 @@
 
 #include "core/hull/distance_grid.hpp"
 #include "core/hull/ship_shape.hpp"
+#include "core/hull/space_map.hpp"
 #include "core/hull/surface_tree.hpp"
 
 namespace seaway::hull {
@@ -45,6 +46,8 @@ class SurfaceHull final : public Hull<3> {
     Trees tree;  ///< one
     double permeability;
   };
+  int find_space(const Vec3& x) const;
+  int common_space(const Vec3& x, double radius) const;
 
   Ship ship_;
   Box<3> bounds_;
@@ -55,6 +58,7 @@ class SurfaceHull final : public Hull<3> {
   Trees openings_;  ///< extended
   std::vector<Box<3>> opening_boxes_, extended_;
   std::shared_ptr<const DistanceGrid> table_;
+  SpaceMap map_;
 };
 
 }  // namespace seaway::hull

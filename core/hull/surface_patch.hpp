@@ -15,13 +15,18 @@
 // to the integrand: then triangles below the control volume count nothing, and those beyond the
 // block act together as a whole number times the rectangle if their border does not show in it.
 //
-// Const after construction, thread-safe; queries allocate nothing.
+// The cells of the block and the control volumes around their faces are asked for most: their solid parts are found together, at
+// the first query of a kind (core/hull/box_lattice.hpp), and kept.
+//
+// Const after construction, thread-safe.
 #pragma once
 
 #include <array>
 #include <memory>
+#include <mutex>
 #include <vector>
 
+#include "core/hull/box_lattice.hpp"
 #include "core/hull/distance_grid.hpp"
 #include "core/hull/surface_tree.hpp"
 
@@ -34,11 +39,7 @@ class TriangleColumns {
   struct Cuboid {
     Vec3 centre, half;
   };
-  /// Solid volume and its moment about the control volume's centre, along the block's axes.
-  struct Moments {
-    double volume = 0;
-    Vec3 first = Vec3::Zero();
-  };
+  using Moments = BoxMoments;
 
   /// `block`: its half edges hold the margin in which queries may lie.
   TriangleColumns(const std::vector<std::shared_ptr<const SurfaceTree>>& solids,
@@ -48,6 +49,8 @@ class TriangleColumns {
   int n_triangles() const { return static_cast<int>(triangles_.size()); }
 
   Moments moments(const Cuboid& box) const;
+  /// The same for all boxes of a lattice within the block.
+  std::vector<Moments> moments(const BoxLattice& lattice) const;
   /// Part of the volume where normal.x <= d, x from the control volume's centre.
   double volume_below(const Cuboid& box, const Vec3& normal, double d) const;
   /// Solid area of the face on side `high` of the control volume's axis.
@@ -82,6 +85,24 @@ class TriangleColumns {
   std::vector<int> members_;  ///< triangle numbers by bin
 };
 
+/// What a lattice's boxes hold: most of them nothing, or solid alone.
+class LatticeParts {
+ public:
+  /// cut: neither empty nor full of solid of density 1.
+  enum class Kind : signed char { fluid, solid, cut };
+
+  LatticeParts(const TriangleColumns& columns, const BoxLattice& lattice);
+  const BoxLattice& lattice() const { return lattice_; }
+  Kind kind(std::size_t box) const { return entry_[box] < 0 ? Kind::solid : entry_[box] == 0 ? Kind::fluid : Kind::cut; }
+  /// Before: kind is cut.
+  const BoxMoments& cut(std::size_t box) const { return cut_[static_cast<std::size_t>(entry_[box] - 1)]; }
+
+ private:
+  BoxLattice lattice_;
+  std::vector<short> entry_;  ///< 0: fluid; -1: solid; else 1 + the place in cut_
+  std::vector<BoxMoments> cut_;
+};
+
 class SurfacePatch final : public HullPatch<3> {
  public:
   /// `table` belongs to the walls among `solids` and serves to pass boxes without walls quickly;
@@ -100,11 +121,25 @@ class SurfacePatch final : public HullPatch<3> {
   Seen look(const Vec3& centre, double radius) const;
   TriangleColumns::Cuboid local(const OrientedBox<3>& cv) const;
 
-  Vec3 centre_;
+  /// A box of one of the block's own lattices.
+  struct Place {
+    const LatticeParts* parts = nullptr;  ///< null: none of them
+    std::size_t box = 0;
+  };
+  /// `centre` from the block's centre, along its axes.
+  Place find(const Vec3& centre, const Vec3& half) const;
+  static Seen seen_at(const Place& place);
+
+  Vec3 centre_, half_;
   Eigen::Matrix3d axes_;
   TriangleColumns columns_;
   std::shared_ptr<const DistanceGrid> table_;
   bool porous_;
+  struct Kept {
+    std::once_flag once;
+    std::unique_ptr<const LatticeParts> parts;
+  };
+  mutable std::array<Kept, 4> kept_;  ///< around the faces of each axis; cells
 };
 
 }  // namespace seaway::hull

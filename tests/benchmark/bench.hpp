@@ -1,10 +1,14 @@
-// Speed of the solver on the example case: damaged section moving in waves, generation and
-// absorption zones, volume book. Figures are CPU seconds, user and system, of all threads.
+// Speed of the solver on the example cases: damaged section, or damaged ship, moving in waves,
+// generation and absorption zones, volume book. Figures are CPU seconds, user and system, of all
+// threads.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
+
+#include "core/sim/simulation.hpp"
 
 namespace seaway::bench {
 
@@ -13,13 +17,21 @@ struct Measurement {
   std::int64_t cells = 0, steps = 0;
   int threads = 1;
   double cell_steps_per_cpu_s = 0;
-  double bytes_per_cell = 0;             ///< of heap, all of the run; 0: not measured
+  double cell_steps_per_wall_s = 0;      ///< 0: not measured
+  double bytes_per_cell = 0;             ///< all of the run, see below; 0: not measured
   double pcg_iterations = 0;             ///< mean of the steps; 0: none
   std::map<std::string, double> phases;  ///< share of the CPU time
 };
 
-/// Whole time steps on a mesh of about `cells` cells, after some that let the hull get going.
+/// Whole time steps on a mesh of about `cells` cells, after some that let the hull get going. Bytes: live heap.
 Measurement measure_step(std::int64_t cells, int steps, int threads, bool turbulent = false);
+
+/// The same in three dimensions: DTMB 5415, two flooded compartments. Bytes: highest resident memory of the process
+/// during start and steps less what it had before the mesh, the hull's table included there.
+Measurement measure_ship_step(const std::shared_ptr<const sim::Model<3>>& model, int steps, int threads);
+
+/// The ship's case on about `cells` cells.
+std::shared_ptr<const sim::Model<3>> ship_bench_model(std::int64_t cells, bool turbulent = false);
 
 /// Transport of water and momentum alone, `steps` sub-steps.
 Measurement measure_advection(std::int64_t cells, int steps, int threads);

@@ -21,6 +21,8 @@ const std::vector<Case>& all_cases() {
       {"dam_break", Suite::quick, "surge front of a column against Martin & Moyce", run_dam_break},
       {"pressure_scaling", Suite::quick, "iterations of the pressure solve, 20 k to 300 k cells",
        run_pressure_scaling},
+      {"pressure_scaling_3d", Suite::full, "iterations of the pressure solve of the ship, 0.1 to 3.5 million cells",
+       run_pressure_scaling_3d},
       {"mapping", Suite::quick,
        "fields from one mesh to the next: kept, conserved, bounded, accurate", run_mapping},
       {"taylor_green", Suite::quick, "order of the decay of a vortex", run_taylor_green},

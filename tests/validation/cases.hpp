@@ -45,6 +45,7 @@ void run_beach(const Context& context, Results& results);
 void run_irregular_sea(const Context& context, Results& results);
 void run_dam_break(const Context& context, Results& results);
 void run_pressure_scaling(const Context& context, Results& results);
+void run_pressure_scaling_3d(const Context& context, Results& results);
 void run_mapping(const Context& context, Results& results);
 void run_threads(const Context& context, Results& results);
 void run_ship_held(const Context& context, Results& results);

@@ -212,6 +212,44 @@ TEST(SpacedPatch, ThinWallsSeparateSpaces) {
   EXPECT_EQ(hull.compartment_at({0.2, 0.1995, 0.1}), -1);
 }
 
+TEST(SpaceMap, KeepsCellsOfOneSpaceAndLeavesTheOthersOpen) {
+  int asked = 0;
+  const Box<3> box{Vec3(-0.1, -0.1, -0.1), Vec3(0.3, 0.2, 0.1)};
+  const auto by_plane = [&](const Vec3& x, double radius) {  // 1 above y = 0.03
+    ++asked;
+    return std::abs(x.y() - 0.03) <= radius ? SpaceMap::unknown : x.y() > 0.03 ? 1 : 0;
+  };
+  const SpaceMap map(box, 0.01, by_plane);
+  EXPECT_EQ(map.at({0.29, 0.19, 0.09}), 1);
+  EXPECT_EQ(map.at({0.0, 0.06, 0.0}), 1);
+  EXPECT_EQ(map.at({0.0, -0.01, 0.0}), 0);
+  EXPECT_EQ(map.at({0.0, 0.031, 0.0}), SpaceMap::unknown);
+  EXPECT_EQ(map.at({0.0, 0.21, 0.0}), SpaceMap::unknown);
+  EXPECT_LT(asked, 40 * 30 * 20 / 2);  // not cell by cell
+}
+
+TEST(SpaceMap, AnswersOfAHullDoNotDependOnIt) {
+  ShipSpec spec = barge();
+  spec.compartments[0].wall_thickness = 0.004;
+  // The map of the second hull has other cells: points near walls in one lie in plain cells of the other.
+  const SurfaceHull coarse(build_ship(spec), 0.05, 0.1, 0.02), fine(build_ship(spec), 0.0125, 0.1, 0.02);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const Box<3> around = coarse.compartment_bounds();
+  const Vec3 middle = 0.5 * (around.lower + around.upper), half = 0.6 * (around.upper - around.lower);
+  std::array<int, 3> seen{};
+  for (int trial = 0; trial < 20000; ++trial) {
+    const Vec3 x = middle + half.cwiseProduct(Vec3(any(random), any(random), any(random)));
+    const int space = coarse.space_near(x);
+    ASSERT_EQ(space, fine.space_near(x)) << x.transpose();
+    if (coarse.compartment_at(x) >= 0 && space >= 0) {
+      ASSERT_EQ(space, 1 + coarse.compartment_at(x)) << x.transpose();
+    }
+    ++seen[static_cast<std::size_t>(space + 1)];
+  }
+  for (const int count : seen) EXPECT_GT(count, 10);
+}
+
 TEST(SpacedPatch, OpeningsReachOutAlongTheirThinDirection) {
   const SurfaceHull hull(build_ship(barge()), 0.02, 0.1, 0.05);
   // Box 0.1 x 0.04 x 0.1 at y = 0.18 to 0.22, extended to 0.13 .. 0.27.

@@ -145,6 +145,55 @@ TEST(SurfacePatch, SubBoxesOfABlockAddUpToIt) {
   }
 }
 
+/// A mesh block of 8 x 8 x 8 cells with room for the control volumes around its faces.
+OrientedBox<3> mesh_block(const Vec3& at, const Vec3& cell, const Eigen::Matrix3d& axes) {
+  return box_at(at, 4.6 * cell, axes);
+}
+
+TEST(SurfacePatch, LatticesOfAMeshBlockHoldWhatSingleBoxesHold) {
+  Solids some = ship();
+  some.push_back(std::make_shared<SurfaceTree>(box_surface(0.4, 0.1, 0.2), 0.3));  // porous, overlapping
+  const Vec3 h(0.02, 0.012, 0.01);
+  const double full = h.prod();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  int cut = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    // Upright every fourth time: walls and water planes of the box along the grid.
+    const Eigen::Matrix3d axes = trial % 4 == 0 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                                                : turned(2 * any(random), {any(random), any(random), any(random)});
+    const Vec3 at(0.3 * any(random), 0.2 * any(random), 0.1 + 0.16 * any(random));
+    const auto block = mesh_block(at, h, axes);
+    const TriangleColumns columns(some, block);
+    const auto patch = SurfacePatch(some, block, nullptr, true);
+    for (int kind = 0; kind < 4; ++kind) {
+      BoxLattice lattice;
+      lattice.edge = h;
+      for (int a = 0; a < 3; ++a) {
+        lattice.n[a] = 8 + (a == kind);
+        lattice.lower[a] = -0.5 * lattice.n[a] * h[a];
+      }
+      const auto all = columns.moments(lattice);
+      IVec<3> i;
+      for (i[2] = 0; i[2] < lattice.n[2]; ++i[2])
+        for (i[1] = 0; i[1] < lattice.n[1]; ++i[1])
+          for (i[0] = 0; i[0] < lattice.n[0]; ++i[0]) {
+            const Vec3 centre = lattice.lower + h.cwiseProduct(Vec3(i[0] + 0.5, i[1] + 0.5, i[2] + 0.5));
+            const auto one = columns.moments(TriangleColumns::Cuboid{centre, 0.5 * h});
+            const auto& same = all[lattice.at(i)];
+            ASSERT_NEAR(same.volume, one.volume, 1e-12 * full) << trial << ' ' << kind;
+            ASSERT_NEAR((same.first - one.first).norm(), 0, 1e-12 * full * h.norm()) << trial << ' ' << kind;
+            const auto cv = box_at(at + axes * centre, 0.5 * h, axes);
+            const auto part = patch.solid_part(cv);
+            ASSERT_NEAR(part.volume, std::clamp(one.volume, 0.0, full), 2e-12 * full);
+            ASSERT_NEAR((part.moment - axes * one.first - part.volume * cv.centre).norm(), 0, 2e-12 * full);
+            cut += one.volume > 1e-6 * full && one.volume < (1 - 1e-6) * full;
+          }
+    }
+  }
+  EXPECT_GT(cut, 5000);
+}
+
 TEST(SurfacePatch, PatchesOfAllSizesAgree) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> any(-1, 1);
