@@ -38,8 +38,9 @@ std::string KeptRuns::file(const std::string& name) const { return (fs::path(pat
 RunRecord KeptRuns::finished(const std::string& name, const std::string& example, const sim::Case& c, int threads,
                              const std::function<bool(double, int)>& enough) const {
   RunRecord record;
-  if (load(file(name + ".json"), record)) return record;
-  record = run_and_record(c, file(name), threads, enough, name + " " + digest_of(example));
+  const std::string digest = name + " " + digest_of(example);
+  if (load(file(name + ".json"), record) && record.digest == digest) return record;
+  record = run_and_record(c, file(name), threads, enough, digest);
   save(record, file(name + ".json"));
   return record;
 }

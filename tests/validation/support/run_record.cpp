@@ -14,9 +14,11 @@ namespace {
 class Keeper : public sim::RunObserver {
  public:
   /// `file`: what was recorded is saved there with each checkpoint, and read if it is there.
-  Keeper(std::stop_source& stop, const std::function<bool(double, int)>& enough, std::string file)
+  Keeper(std::stop_source& stop, const std::function<bool(double, int)>& enough, std::string file,
+         const std::string& digest)
       : stop_(stop), enough_(enough), file_(std::move(file)), cpu_before_(process_cpu_seconds()) {
-    load(file_, record_);
+    if (!load(file_, record_) || record_.digest != digest) record_ = {};
+    record_.digest = digest;
   }
 
   void on_channels(const std::vector<sim::Channel>& channels) override {
@@ -99,7 +101,7 @@ RunRecord run_and_record(const sim::Case& c, const std::string& folder, int thre
   std::stop_source stop;
   RunContext context = quiet_context(threads);
   context.stop = stop.get_token();
-  Keeper keeper(stop, enough, folder + "/record.json");
+  Keeper keeper(stop, enough, folder + "/record.json", digest);
   sim::RunOptions options;
   options.folder = folder;
   options.case_digest = digest;
@@ -121,7 +123,7 @@ void save(const RunRecord& r, const std::string& path) {
                       {"cpu_s", s.cpu_s},
                       {"mapping_cpu_s", s.mapping_cpu_s},
                       {"converged", s.converged}});
-  const nlohmann::json all{{"t_s", r.t},         {"roll_rad", r.roll},
+  const nlohmann::json all{{"digest", r.digest}, {"t_s", r.t},         {"roll_rad", r.roll},
                            {"heave_m", r.heave}, {"cpu_s", r.cpu_s},
                            {"stages", stages},   {"total_cpu_s", r.total_cpu_s}};
   // Written aside: a file that is there is whole.
@@ -133,6 +135,7 @@ bool load(const std::string& path, RunRecord& r) {
   std::ifstream file(path);
   if (!file) return false;
   const nlohmann::json all = nlohmann::json::parse(file);
+  r.digest = all.value("digest", "");
   all.at("t_s").get_to(r.t);
   all.at("roll_rad").get_to(r.roll);
   all.at("heave_m").get_to(r.heave);
