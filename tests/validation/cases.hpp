@@ -31,6 +31,7 @@ struct Case {
   Suite suite;       ///< smallest suite that runs it; `full` runs the quick cases as well
   std::string what;  ///< one line for --list
   void (*run)(const Context&, Results&);
+  std::string folder = {};  ///< under tests/validation; empty: as the name
 };
 
 const std::vector<Case>& all_cases();
