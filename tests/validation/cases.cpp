@@ -36,6 +36,8 @@ const std::vector<Case>& all_cases() {
        run_wave_train_rans},
       {"barge_roll_decay_rans", Suite::quick, "roll decay of the barge with k-epsilon and walls",
        run_barge_roll_decay_rans},
+      {"kleefsman", Suite::quick, "dam break on a box: pressure at its face against the experiment", run_kleefsman},
+      {"spheric10", Suite::full, "side impact in a rolling tank: first peak against 102 runs", run_spheric10},
       {"threads", Suite::quick, "the number of threads changes no bit", run_threads},
       {"ship_held", Suite::full, "a held ship in calm water makes no currents and feels its hydrostatics",
        run_ship_held},

@@ -59,6 +59,8 @@ void run_lid_cavity(const Context& context, Results& results);
 void run_decaying_turbulence(const Context& context, Results& results);
 void run_channel(const Context& context, Results& results);
 void run_wave_train_rans(const Context& context, Results& results);
+void run_spheric10(const Context& context, Results& results);
+void run_kleefsman(const Context& context, Results& results);
 void run_barge_roll_decay_rans(const Context& context, Results& results);
 
 }  // namespace seaway::validation
