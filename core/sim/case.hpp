@@ -218,10 +218,18 @@ struct Gauge {
   double x = 0, y = 0;               ///< [m]
 };
 
+/// Pressure sensor, channel pressure.NAME.
+struct Probe {
+  std::string name;
+  bool on_hull = true;               ///< moves with the hull, place in hull axes; otherwise fixed, in earth axes
+  Vec3 place{0, 0, 0};               ///< [m]
+};
+
 struct Outputs {
   double sample_interval = 0;        ///< [s]; 0: every step
   double snapshot_interval = 0;      ///< [s]; 0: only at stage ends
   std::vector<Gauge> gauges;
+  std::vector<Probe> probes;
 };
 
 struct Case {

@@ -23,11 +23,13 @@ CaseReport check_case(const Case& c) {
   }
   check_fluids_and_tank(state);
   check_wave_and_zones(state);
-  check_settings_and_outputs(state);
+  check_settings(state);
+  check_gauges(state);
   check_turbulence(state);
   c.dim == 2 ? check_hull(state) : check_ship_hull(state);
   check_body(state);
   c.dim == 2 ? check_floating(state) : check_ship_floating(state);
+  check_probes(state);
   check_stages(state);
   if (report.ok()) estimate_cost(state);
   return report;

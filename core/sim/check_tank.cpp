@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <string>
 
 #include "core/sim/findings.hpp"
@@ -12,7 +11,6 @@ namespace seaway::sim {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::max();
-constexpr const char* axis_names[3] = {"x", "y", "z"};
 
 }  // namespace
 
@@ -55,7 +53,7 @@ void check_fluids_and_tank(CheckState& s) {
   }
 }
 
-void check_settings_and_outputs(CheckState& s) {
+void check_settings(CheckState& s) {
   const TimeControl& time = s.c.time;
   Findings& f = s.findings;
   f.not_negative("time.dt_s", time.dt);
@@ -67,24 +65,6 @@ void check_settings_and_outputs(CheckState& s) {
                    100000);
   f.in_range("outputs.sample_interval_s", s.c.outputs.sample_interval, 0, unbounded);
   f.in_range("outputs.snapshot_interval_s", s.c.outputs.snapshot_interval, 0, unbounded);
-  std::set<std::string> names;
-  for (std::size_t i = 0; i < s.c.outputs.gauges.size(); ++i) {
-    const Gauge& gauge = s.c.outputs.gauges[i];
-    const std::string field = fmt::format("outputs.gauges[{}]", i);
-    if (gauge.name.empty()) f.error(field + ".name", "the gauge has no name", "name it");
-    if (!names.insert(gauge.name).second)
-      f.error(field + ".name", fmt::format("'{}' is used twice", gauge.name),
-              "give each gauge its own name");
-    const double place[2] = {gauge.x, gauge.y};
-    for (int axis = s.first_axis(); axis < 2; ++axis) {
-      const std::string coordinate = fmt::format("{}.{}_m", field, axis_names[axis]);
-      const double low = s.c.tank.lower[axis], high = s.c.tank.upper[axis];
-      if (f.finite(coordinate, place[axis]) && s.tank_ok && !(place[axis] >= low && place[axis] <= high))
-        f.error(coordinate,
-                fmt::format("{} m is outside the tank; allowed: {} to {}", place[axis], low, high),
-                "move the gauge into the tank");
-    }
-  }
 }
 
 }  // namespace seaway::sim

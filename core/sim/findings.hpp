@@ -66,7 +66,8 @@ const char* to_string(Dof dof);
 
 void check_fluids_and_tank(CheckState& s);       // check_tank.cpp
 void check_wave_and_zones(CheckState& s);        // check_wave.cpp
-void check_settings_and_outputs(CheckState& s);  // check_tank.cpp
+void check_settings(CheckState& s);          // check_tank.cpp: time, numerics, intervals
+void check_gauges(CheckState& s);            // check_probes.cpp
 void check_turbulence(CheckState& s);            // check_turbulence.cpp: model, walls of hull and tank
 void check_hull(CheckState& s);                  // check_hull.cpp: shape, compartments
 void check_compartment_use(CheckState& s);       // check_hull.cpp: names, floods without an opening
@@ -76,6 +77,7 @@ void check_body(CheckState& s);                  // check_motion.cpp: numbers an
 void check_floating(CheckState& s);  // check_motion.cpp: hydrostatics, place in the tank
 void check_place(CheckState& s);     // check_motion.cpp: in the tank, clear of the zones; needs s.place
 void check_ship_floating(CheckState& s);  // check_ship.cpp
+void check_probes(CheckState& s);    // check_probes.cpp; those on the hull need s.place
 void check_stages(CheckState& s);    // check_stages.cpp: mesh rules, ends, resolution
 void estimate_cost(CheckState& s);   // estimate_cost.cpp: cells, steps, time
 

@@ -39,6 +39,21 @@ struct Periods {
   }
 };
 
+/// A sensor sits in the wall's surface: no deeper in the solid than a cell from the fluid.
+template <int Dim>
+void check_probes_in_fluid(const Model<Dim>& m) {
+  if (!m.hull) return;
+  const double cell = hull_cells(m.description).finest;
+  for (const Probe& probe : m.description.outputs.probes) {
+    if (!probe.on_hull) continue;
+    const double depth = -m.hull->signed_distance(from_vec3<Dim>(probe.place));
+    if (depth > cell)
+      fail(ErrorCode::invalid_argument,
+           "outputs.probes: '{}' lies {:.4g} m inside the hull's solid, more than a hull cell ({:.4g} m); move it to the wall's surface",
+           probe.name, depth, cell);
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -105,6 +120,7 @@ Model<Dim> make_model(const Case& c) {
     m.displacement = c.body.mass / c.fluids.rho_water;
     if (has_thin_walls(c)) m.walls = flow::Walls::thin;
   }
+  check_probes_in_fluid(m);
   m.period = m.wave ? m.wave->period() : periods.longest;
   m.dt = c.time.dt;
   if (m.dt <= 0) {

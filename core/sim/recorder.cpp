@@ -35,6 +35,7 @@ Recorder<Dim>::Recorder(const Model<Dim>& model) {
   channels_.push_back({"mean_level", "m"});
   for (const std::string& name : model.compartments) channels_.push_back({"compartment." + name + ".volume", volume});
   for (const Gauge& gauge : model.description.outputs.gauges) channels_.push_back({"gauge." + gauge.name, "m"});
+  for (const Probe& probe : model.description.outputs.probes) channels_.push_back({"pressure." + probe.name, "Pa"});
   channels_.push_back({"courant", "1"});
   channels_.push_back({"pressure_iterations", "1"});
 }
@@ -61,6 +62,7 @@ std::vector<double> Recorder<Dim>::values(const Simulation<Dim>& s, const StepRe
   out.push_back((water.visible - initial_water) / area);
   for (const double v : s.compartment_volumes()) out.push_back(v);
   for (const Gauge& gauge : model.description.outputs.gauges) out.push_back(s.elevation(gauge.x, gauge.y));
+  for (const Probe& probe : model.description.outputs.probes) out.push_back(s.pressure(probe));
   out.push_back(step.courant);
   out.push_back(step.pressure.iterations);
   return out;

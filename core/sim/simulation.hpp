@@ -143,6 +143,8 @@ class Simulation {
   std::vector<double> compartment_volumes() const;
   /// Height of the surface over z = 0 at a place: water in the column of cells less the depth there [m].
   double elevation(double x, double y) const;
+  /// Pressure at a probe [Pa], above that at the open top; 0 while a fixed probe is inside the hull's solid.
+  double pressure(const Probe& probe) const;
   double divergence() const { return projection_.divergence(state_, dt_); }
   /// sqrt of the mean of w^2 over the water [m/s].
   double rms_water_velocity() const;

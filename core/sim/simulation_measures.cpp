@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/flow/pressure_probe.hpp"
 #include "core/sim/simulation.hpp"
 
 namespace seaway::sim {
@@ -71,6 +72,13 @@ double Simulation<Dim>::elevation(double x, double y) const {
 }
 
 template <int Dim>
+double Simulation<Dim>::pressure(const Probe& probe) const {
+  Vec<Dim> x = from_vec3<Dim>(probe.place);
+  if (probe.on_hull) x = motion::to_earth(body_.pose, Vec<Dim>(x - model_->body.cog));
+  return flow::pressure_at<Dim>(*forest_, state_, model_->fluids, mask_.get(), x).value_or(0.0);
+}
+
+template <int Dim>
 double Simulation<Dim>::rms_water_velocity() const {
   double volume = 0;
   const auto sum_of = [&](bool squares) {
@@ -102,6 +110,7 @@ double Simulation<Dim>::rms_water_velocity() const {
   template WaterBalance Simulation<D>::water() const;                      \
   template std::vector<double> Simulation<D>::compartment_volumes() const; \
   template double Simulation<D>::elevation(double, double) const;          \
+  template double Simulation<D>::pressure(const Probe&) const;             \
   template double Simulation<D>::rms_water_velocity() const;
 SEAWAY_INSTANTIATE(2)
 SEAWAY_INSTANTIATE(3)

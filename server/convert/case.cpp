@@ -96,6 +96,25 @@ void read_outputs(const v1::Outputs& m, sim::Outputs& out, Checker& check) {
   }
 }
 
+void read_probes(const v1::Outputs& m, bool has_hull, int dim, sim::Outputs& out, Checker& check) {
+  check.entries("outputs.probes", m.probes_size(), 0, 64);
+  std::set<std::string> names;
+  for (int i = 0; i < m.probes_size(); ++i) {
+    const v1::PressureProbe& from = m.probes(i);
+    const std::string path = fmt::format("outputs.probes[{}]", i);
+    check.name(path + ".name", from.name());
+    if (!names.insert(from.name()).second)
+      check.problem(path + ".name", fmt::format("'{}' is used twice", from.name()), "give each probe its own name");
+    if (dim == 2 && from.x_m() != 0) check.problem(path + ".x_m", "x does not exist in 2-D", "remove it");
+    sim::Probe probe{from.name(), has_hull, {from.x_m(), from.y_m(), from.z_m()}};
+    if (from.frame() == v1::PressureProbe::FRAME_HULL && !has_hull)
+      check.problem(path + ".frame", "there is no hull to move with", "write earth, or leave it out");
+    else if (from.frame() != v1::PressureProbe::FRAME_UNSPECIFIED)
+      probe.on_hull = from.frame() == v1::PressureProbe::FRAME_HULL;
+    out.probes.push_back(probe);
+  }
+}
+
 }  // namespace
 
 void read_box(const Extent& x, const Extent& y, const Extent& z, const std::string& path, int dim, Vec3& lower,
@@ -155,6 +174,7 @@ sim::Case to_core(const v1::Case& m) {
   read_numerics(m.numerics(), c.numerics, check);
   read_cascade(m.cascade(), c.dim, c.stages, check);
   read_outputs(m.outputs(), c.outputs, check);
+  read_probes(m.outputs(), m.has_hull(), c.dim, c.outputs, check);
   if (!check.ok()) throw InputError("INVALID_CASE", check.take());
   return c;
 }

@@ -224,6 +224,14 @@ v1::Case to_proto(const sim::Case& c) {
     gauge.set_x_m(from.x);
     gauge.set_y_m(from.y);
   }
+  for (const sim::Probe& from : c.outputs.probes) {
+    v1::PressureProbe& probe = *m.mutable_outputs()->add_probes();
+    probe.set_name(from.name);
+    probe.set_frame(from.on_hull ? v1::PressureProbe::FRAME_HULL : v1::PressureProbe::FRAME_EARTH);
+    if (c.dim == 3) probe.set_x_m(from.place.x());
+    probe.set_y_m(from.place.y());
+    probe.set_z_m(from.place.z());
+  }
   return m;
 }
 

@@ -55,6 +55,14 @@ std::vector<IllegalCase> water() {
       {"a gauge that is a path", {}, "outputs { gauges { name: '../x' } }", "outputs.gauges[1].name", "letters, digits"},
       {"two gauges of a name", {}, "outputs { gauges { name: 'bow' } }", "outputs.gauges[1].name", "its own name"},
       {"65 gauges", {}, "outputs { " + times(65, "gauges { name: 'a' } ") + "}", "outputs.gauges", "0 to 64"},
+      {"a probe outside the hull", {}, "outputs { probes { name: 'p' y_m: 99 } }", "outputs.probes[0].y_m", "hull axes"},
+      {"a fixed probe outside", {}, "outputs { probes { name: 'p' frame: FRAME_EARTH z_m: 99 } }", "outputs.probes[0].z_m", "into the tank"},
+      {"a probe on no hull", {"hull", "body"}, "outputs { probes { name: 'p' frame: FRAME_HULL } }", "outputs.probes[0].frame", "write earth"},
+      {"a probe without a name", {}, "outputs { probes { y_m: 0 } }", "outputs.probes[0].name", "letters, digits"},
+      {"two probes of a name", {}, "outputs { probes { name: 'p' } probes { name: 'p' } }", "outputs.probes[1].name", "its own name"},
+      {"a probe at x in a section", {}, "outputs { probes { name: 'p' x_m: 1 } }", "outputs.probes[0].x_m", "remove it"},
+      {"an unknown frame", {}, "outputs { probes { name: 'p' frame: 7 } }", "outputs.probes[0].frame", "is no value of Frame"},
+      {"65 probes", {}, "outputs { " + times(65, "probes { name: 'a' } ") + "}", "outputs.probes", "0 to 64"},
       {"samples backwards", {}, "outputs { sample_interval_s: -1 }", "outputs.sample_interval_s", ">= 0"}};
 }
 

@@ -31,6 +31,7 @@ struct Case {
   Suite suite;       ///< smallest suite that runs it; `full` runs the quick cases as well
   std::string what;  ///< one line for --list
   void (*run)(const Context&, Results&);
+  std::string folder = {};  ///< under tests/validation; empty: as the name
 };
 
 const std::vector<Case>& all_cases();
@@ -58,6 +59,14 @@ void run_lid_cavity(const Context& context, Results& results);
 void run_decaying_turbulence(const Context& context, Results& results);
 void run_channel(const Context& context, Results& results);
 void run_wave_train_rans(const Context& context, Results& results);
+void run_zalesak_disk(const Context& context, Results& results);
+void run_sphere_deformation(const Context& context, Results& results);
+void run_vortex_across_levels(const Context& context, Results& results);
+void run_wave_across_levels(const Context& context, Results& results);
+void run_rotating_hull(const Context& context, Results& results);
+void run_rayleigh_taylor(const Context& context, Results& results);
+void run_spheric10(const Context& context, Results& results);
+void run_kleefsman(const Context& context, Results& results);
 void run_barge_roll_decay_rans(const Context& context, Results& results);
 
 }  // namespace seaway::validation

@@ -4,17 +4,13 @@
 #include <algorithm>
 
 #include "core/mesh/parallel_runtime.hpp"
-#include "tests/validation/cases.hpp"
+#include "tests/validation/suite.hpp"
 
 namespace {
 
 using namespace seaway;
 using validation::Case;
 using validation::Suite;
-
-const char* name_of(Suite suite) {
-  return suite == Suite::quick ? "quick" : suite == Suite::full ? "full" : "ships";
-}
 
 bool belongs(const Case& c, Suite suite) {
   return suite == Suite::ships ? c.suite == Suite::ships
@@ -42,32 +38,13 @@ std::vector<const Case*> choose(const std::vector<std::string>& names, bool by_s
   return chosen;
 }
 
-int run(const std::vector<const Case*>& cases, const validation::Context& context,
-        validation::Format format) {
-  int lines = 0, failures = 0;
-  if (format == validation::Format::table) validation::Results::print_table_header(stdout);
-  for (const Case* c : cases) {
-    validation::Results results(c->name, format);
-    try {
-      c->run(context, results);
-    } catch (const std::exception& e) {
-      results.fail(e.what());
-    }
-    if (results.lines() == 0) results.fail("the case reported nothing");
-    lines += results.lines();
-    failures += results.failures();
-  }
-  if (format == validation::Format::table)
-    std::printf("%d quantities, %d failed\n", lines, failures);
-  return failures == 0 ? 0 : 1;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{
       "Validation and verification cases of seaway: each compares quantities with references."};
   std::vector<std::string> names;
+  std::string report;
   bool json = false, list = false;
   Suite suite = Suite::full;
   validation::Context context;
@@ -87,6 +64,9 @@ int main(int argc, char** argv) {
       "--results", context.results,
       "folder in which long cases keep finished runs, tables and pictures; what is there "
       "is not run again");
+  app.add_option("--report", report,
+                 "folder for report.json and report.html; each case is kept there as it ends, and what is there of the "
+                 "same code and input is not run again; without cases and suite: of what is there");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -94,12 +74,13 @@ int main(int argc, char** argv) {
   }
   if (list) {
     for (const Case& c : validation::all_cases())
-      std::printf("%-18s %-6s %s\n", c.name.c_str(), name_of(c.suite), c.what.c_str());
+      std::printf("%-18s %-6s %s\n", c.name.c_str(), validation::name_of(c.suite), c.what.c_str());
     return 0;
   }
   context.suite = suite;
+  if (!report.empty() && names.empty() && suite_option->count() == 0) return validation::report_kept(report);
   const std::vector<const Case*> cases = choose(names, suite_option->count() > 0, suite);
   if (cases.empty()) return 2;
   const mesh::ParallelRuntime runtime;
-  return run(cases, context, json ? validation::Format::json : validation::Format::table);
+  return validation::run_suite(cases, context, json ? validation::Format::json : validation::Format::table, report);
 }

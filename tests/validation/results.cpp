@@ -10,16 +10,13 @@ namespace seaway::validation {
 namespace {
 
 std::string to_json(const Line& line) {
-  const auto number = [](std::optional<double> x) {
-    return x && std::isfinite(*x) ? nlohmann::ordered_json(*x) : nlohmann::ordered_json(nullptr);
-  };
   nlohmann::ordered_json j;
   j["case"] = line.case_name;
   j["quantity"] = line.quantity;
-  j["value"] = number(line.value);
+  j["value"] = json_number(line.value);
   j["unit"] = line.unit;
-  j["reference"] = number(line.reference);
-  j["tolerance"] = number(line.tolerance);
+  j["reference"] = json_number(line.reference);
+  j["tolerance"] = json_number(line.tolerance);
   j["pass"] = line.pass;
   j["cpu_s"] = line.cpu_s;
   return j.dump();
@@ -30,10 +27,9 @@ std::string column(std::optional<double> x) { return x ? fmt::format("{:.6g}", *
 }  // namespace
 
 Results::Results(std::string case_name, Format format, std::FILE* out)
-    : case_name_(std::move(case_name)),
-      format_(format),
-      out_(out),
-      cpu_before_(process_cpu_seconds()) {}
+    : format_(format), out_(out), cpu_before_(process_cpu_seconds()) {
+  record_.name = std::move(case_name);
+}
 
 void Results::print_table_header(std::FILE* out) {
   std::fprintf(out, "%-18s %-24s %13s %-7s %12s %12s  %-4s %8s\n", "case", "quantity", "value",
@@ -41,13 +37,22 @@ void Results::print_table_header(std::FILE* out) {
 }
 
 void Results::add(Line line) {
-  line.case_name = case_name_;
+  line.case_name = record_.name;
   line.pass = line.pass && !std::isnan(line.value);
   const double cpu = process_cpu_seconds();
   line.cpu_s = cpu - cpu_before_;
   cpu_before_ = cpu;
-  ++lines_;
-  failures_ += line.pass ? 0 : 1;
+  record_.cpu_s += line.cpu_s;
+  record_.lines.push_back(line);
+  print(line);
+}
+
+void Results::replay(const CaseRecord& record) {
+  record_ = record;
+  for (const Line& line : record_.lines) print(line);
+}
+
+void Results::print(const Line& line) const {
   if (format_ == Format::json) {
     std::fprintf(out_, "%s\n", to_json(line).c_str());
   } else {
@@ -79,7 +84,8 @@ void Results::report(const std::string& quantity, double value, const std::strin
 }
 
 void Results::fail(const std::string& reason) {
-  std::fprintf(stderr, "%s: %s\n", case_name_.c_str(), reason.c_str());
+  std::fprintf(stderr, "%s: %s\n", record_.name.c_str(), reason.c_str());
+  record_.error = reason;
   add({{},
        "error",
        std::numeric_limits<double>::quiet_NaN(),

@@ -3,20 +3,11 @@
 #pragma once
 
 #include <cstdio>
-#include <optional>
 #include <string>
 
-namespace seaway::validation {
+#include "tests/validation/report/case_record.hpp"
 
-struct Line {
-  std::string case_name, quantity;
-  double value = 0;
-  std::string unit;                 ///< SI; "1" for plain numbers
-  std::optional<double> reference;  ///< the value wanted; least allowed value for expect_above
-  std::optional<double> tolerance;  ///< largest distance to it; largest value for expect_below
-  bool pass = true;
-  double cpu_s = 0;  ///< CPU seconds (all threads) since the case's line before
-};
+namespace seaway::validation {
 
 enum class Format { table, json };
 
@@ -37,22 +28,31 @@ class Results {
                    double reference, double tolerance);
   /// A number that has no bar: always passes unless it is not a number.
   void report(const std::string& quantity, double value, const std::string& unit);
+  /// Curves for the report, computed beside reference.
+  void plot(Plot plot) { record_.plots.push_back(std::move(plot)); }
+  /// A quantity on several meshes, for the report's grid convergence.
+  void refinement(Refinement refinement) { record_.refinements.push_back(std::move(refinement)); }
   /// The case could not be finished: a failed line "error", and the reason on stderr.
   void fail(const std::string& reason);
 
-  int lines() const { return lines_; }
-  int failures() const { return failures_; }
+  /// Lines, curves and meshes of a case that was run before.
+  void replay(const CaseRecord& record);
+
+  int lines() const { return static_cast<int>(record_.lines.size()); }
+  int failures() const { return record_.failures(); }
+  /// All so far; name, lines, curves, meshes, error and CPU time are set.
+  const CaseRecord& record() const { return record_; }
 
   static void print_table_header(std::FILE* out);
 
  private:
   void add(Line line);
+  void print(const Line& line) const;
 
-  const std::string case_name_;
   const Format format_;
   std::FILE* const out_;
-  int lines_ = 0, failures_ = 0;
   double cpu_before_;
+  CaseRecord record_;
 };
 
 }  // namespace seaway::validation

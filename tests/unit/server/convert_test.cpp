@@ -212,6 +212,33 @@ TEST(ConvertCase, RefusesSeasThatSayTooMuchOrTooLittle) {
   EXPECT_THAT(why([](auto& s) { s.set_heading_deg(45); }), HasSubstr("not possible in a section"));
 }
 
+TEST(ConvertCase, ReadsProbesAndWritesThemBack) {
+  v1::Case m = small();
+  auto& bow = *m.mutable_outputs()->add_probes();
+  bow.set_name("bow");
+  bow.set_y_m(0.1);
+  bow.set_z_m(0.02);
+  auto& wall = *m.mutable_outputs()->add_probes();
+  wall.set_name("wall");
+  wall.set_frame(v1::PressureProbe::FRAME_EARTH);
+  wall.set_z_m(-0.5);
+  const sim::Case core = to_core(m);
+  ASSERT_EQ(core.outputs.probes.size(), 2u);
+  EXPECT_TRUE(core.outputs.probes[0].on_hull);  // the default beside a hull
+  EXPECT_EQ(core.outputs.probes[0].place, Vec3(0, 0.1, 0.02));
+  EXPECT_FALSE(core.outputs.probes[1].on_hull);
+  const v1::Case full = to_proto(core);
+  EXPECT_EQ(full.outputs().probes(0).frame(), v1::PressureProbe::FRAME_HULL);
+  EXPECT_EQ(full.outputs().probes(1).z_m(), -0.5);
+  EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(full, to_proto(to_core(full))));
+  m.mutable_outputs()->mutable_probes(1)->set_name("bow");
+  EXPECT_THAT(refused_fields(m), ::testing::Contains("outputs.probes[1].name"));
+  m.clear_hull();
+  m.clear_body();
+  m.mutable_outputs()->mutable_probes(0)->set_frame(v1::PressureProbe::FRAME_HULL);
+  EXPECT_THAT(refused_fields(m), ::testing::Contains("outputs.probes[0].frame"));
+}
+
 TEST(ConvertCase, AFrequencyIsAPeriod) {
   v1::Case m = small();
   m.mutable_wave()->mutable_regular()->clear_period_s();

@@ -272,6 +272,12 @@ void run_laminar(const Context& context, Results& results) {
     results.report(fmt::format("laminar_balance_{}", rows), flows.back().balance, "1");
   }
   const std::size_t last = flows.size() - 1;
+  Refinement meshes{"laminar_error", "1", {}, {}, 1, 0.0};
+  for (std::size_t i = 0; i < flows.size(); ++i) {
+    meshes.h.push_back(1 / (8.0 * (1 << i) + 0.37));  // of half the width
+    meshes.value.push_back(flows[i].error);
+  }
+  results.refinement(meshes);
   // First order: the outermost row of cells counts as a whole one.
   results.expect_above("laminar_order", std::log2(flows[last - 1].error / flows[last].error), "1", 0.9);
   results.expect_below("laminar_error", flows[last].error, "1", context.quick() ? 0.01 : 0.005);

@@ -122,14 +122,27 @@ double front_error(const Record& computed, const Record& measured) {
 void run_dam_break(const Context& context, Results& results) {
   const Record measured = read_record(std::string(SEAWAY_VALIDATION) + "/dam_break/front.csv");
   const int finest = context.quick() ? 32 : 64;
+  std::vector<Curve> curves;
   for (int cells = finest / 2; cells <= finest; cells *= 2) {
-    const double error = front_error(collapse(cells, context.threads), measured);
+    const Record computed = collapse(cells, context.threads);
+    const double error = front_error(computed, measured);
+    Curve shifted{fmt::format("a/{}", cells), computed.t, computed.value, false};
+    const double shift = time_of(computed, gate) - time_of(measured, gate);
+    for (double& t : shifted.x) t -= shift;
+    curves.push_back(shifted);
     // Digitised from a printed figure, and codes without friction run a few per cent ahead.
     if (cells == finest)
       results.expect_below("front_error", error, "1", 0.05);
     else
       results.report("front_error_half_resolution", error, "1");
   }
+  Curve points{"Martin & Moyce", {}, {}, true};
+  for (std::size_t i = 0; i < measured.t.size() && measured.value[i] < 6; ++i) {
+    points.x.push_back(measured.t[i]);
+    points.y.push_back(measured.value[i]);
+  }
+  curves.push_back(points);
+  results.plot({"surge front, times equal at Z = 1.44", "t sqrt(2 g / a)", "Z", curves});
 }
 
 }  // namespace seaway::validation

@@ -21,6 +21,7 @@ void run_decaying_turbulence(const Context& context, Results& results) {
   std::fill(run->state().tke.data().begin(), run->state().tke.data().end(), k0);
   std::fill(run->state().epsilon.data().begin(), run->state().epsilon.data().end(), epsilon0);
   double error = 0;
+  Curve computed{"computed", {}, {}, false}, wanted{"exact", {}, {}, true};
   const double start_time = run->time();
   while (run->time() - start_time < 20 * time_scale) {
     step(*run);
@@ -32,7 +33,12 @@ void run_decaying_turbulence(const Context& context, Results& results) {
       error = std::max({error, std::abs(run->state().tke.block(b)[i] / k - 1),
                         std::abs(run->state().epsilon.block(b)[i] / epsilon - 1)});
     });
+    computed.x.push_back((run->time() - start_time) / time_scale);
+    computed.y.push_back(run->state().tke.block(run->forest().leaves().front())[0] / k0);
+    wanted.x.push_back(computed.x.back());
+    wanted.y.push_back(k / k0);
   }
+  results.plot({"decay of turbulent energy", "t epsilon_0 / k_0", "k / k_0", {computed, wanted}});
   results.expect_below("error", error, "1", 0.005);
 }
 

@@ -52,6 +52,18 @@ void run_irregular_sea(const Context& context, Results& results) {
     for (std::size_t g = 0; g < places.size(); ++g) found[g].add(run->time(), run->elevation(0, places[g]));
     asked.add(run->time(), wave.elevation(0, places[0], run->time()));
   }
+  // Ten peak periods of both.
+  const auto last_part = [&](const Record& r, const char* label, bool reference) {
+    Curve curve{label, {}, {}, reference};
+    for (std::size_t i = 0; i < r.t.size(); ++i) {
+      if (r.t[i] < end - 10 * period || (reference && i % 8 != 0)) continue;
+      curve.x.push_back(r.t[i]);
+      curve.y.push_back(r.value[i]);
+    }
+    return curve;
+  };
+  results.plot({"elevation at the first gauge", "t, s", "m",
+                {last_part(found[0], "computed", false), last_part(asked, "linear sum", true)}});
   const auto signal = [](const Record& r) { return analysis::Signal{r.t, r.value}; };
   const auto f = analysis::frequencies_of(asked.t.back() - asked.t.front(), 0.5 / period, 2.5 / period);
   std::vector<double> k;

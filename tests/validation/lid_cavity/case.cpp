@@ -13,12 +13,13 @@ namespace {
 constexpr double reynolds = 100;
 
 /// Largest deviation of the computed velocity from a table of (place along the centre line, velocity).
-double profile_error(const Section& run, const std::string& file, int axis) {
+double profile_error(const Section& run, const std::string& file, int axis, Results& results) {
   std::ifstream in(std::string(SEAWAY_VALIDATION) + "/lid_cavity/" + file);
   SEAWAY_CHECK(in.good(), "cannot read {}", file);
   std::string line;
   std::getline(in, line);
   double largest = 0;
+  Curve table{"Ghia et al.", {}, {}, true};
   while (std::getline(in, line)) {
     double place = 0, value = 0;
     char comma = 0;
@@ -26,7 +27,16 @@ double profile_error(const Section& run, const std::string& file, int axis) {
     if (place <= 0 || place >= 1) continue;  // the walls themselves
     const Vec2 x = axis == 0 ? Vec2(0.5, place - 1) : Vec2(place, -0.5);
     largest = std::max(largest, std::abs(velocity_at(run, axis, x) - value));
+    table.x.push_back(place);
+    table.y.push_back(value);
   }
+  Curve computed{"computed", {}, {}, false};
+  for (double place = 0.01; place < 0.995; place += 0.01) {
+    computed.x.push_back(place);
+    computed.y.push_back(velocity_at(run, axis, axis == 0 ? Vec2(0.5, place - 1) : Vec2(place, -0.5)));
+  }
+  results.plot({axis == 0 ? "u on the vertical centre line" : "v on the horizontal centre line", "place", "velocity / lid",
+                {computed, table}});
   return largest;
 }
 
@@ -46,7 +56,7 @@ void run_lid_cavity(const Context& context, Results& results) {
   }
   const double change = std::abs(velocity_at(*run, 0, Vec2(0.5, -0.5)) - before) / run->dt();
   // Bar of the project: 1 % of the lid's speed at 64 cells; half the cells, twice that.
-  const double u = profile_error(*run, "u_re100.csv", 0), v = profile_error(*run, "v_re100.csv", 1);
+  const double u = profile_error(*run, "u_re100.csv", 0, results), v = profile_error(*run, "v_re100.csv", 1, results);
   results.expect_below("profile_error", std::max(u, v), "1", context.quick() ? 0.02 : 0.01);
   results.report("u_error", u, "1");
   results.report("v_error", v, "1");

@@ -40,12 +40,14 @@ void run_taylor_green(const Context& context, Results& results) {
   results.report("error_32", medium, "1");
   if (context.quick()) {
     results.expect_above("order", std::log2(coarse / medium), "1", 1.9);
+    results.refinement({"velocity_error", "1", {1.0 / 16, 1.0 / 32}, {coarse, medium}, 2, 0.0});
     return;
   }
   const double fine = error_on(64, context.threads);
   results.report("error_64", fine, "1");
   results.report("order_coarse", std::log2(coarse / medium), "1");
   results.expect_above("order", std::log2(medium / fine), "1", 1.9);
+  results.refinement({"velocity_error", "1", {1.0 / 16, 1.0 / 32, 1.0 / 64}, {coarse, medium, fine}, 2, 0.0});
 }
 
 }  // namespace seaway::validation

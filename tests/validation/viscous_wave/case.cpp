@@ -66,7 +66,7 @@ class ExactWave {
 };
 
 /// Rms deviation of the amplitude over three periods, with `cells` a wavelength.
-double error_on(int cells, const ExactWave& exact, double nu, int threads) {
+double error_on(int cells, const ExactWave& exact, double nu, int threads, Results& results) {
   const double h = length / cells;
   sim::Case c = one_fluid_tank(0, -length, cells / 2, 2 * cells, h, nu);  // half a wave between slip walls
   c.fluids.rho_water = rho_water;
@@ -81,6 +81,7 @@ double error_on(int cells, const ExactWave& exact, double nu, int threads) {
   field::restrict_cells<double, 2>(run->forest(), run->state().vof);
   double sum = 0;
   int count = 0;
+  Curve computed{fmt::format("{} cells", cells), {}, {}, false}, wanted{"exact", {}, {}, true};
   while (run->time() < 3 * exact.period()) {
     step(*run);
     double harmonic = 0;
@@ -89,9 +90,16 @@ double error_on(int cells, const ExactWave& exact, double nu, int threads) {
       harmonic += 4 * h / length * run->elevation(0, y) * std::cos(k * y);
     }
     // Velocities live half a step later and were at rest: so was the wave half a step after the start.
-    sum += std::pow(harmonic / amplitude - exact(run->time() - 0.5 * run->dt()), 2);
-    ++count;
+    const double there = exact(run->time() - 0.5 * run->dt());
+    sum += std::pow(harmonic / amplitude - there, 2);
+    computed.x.push_back(run->time() / exact.period());
+    computed.y.push_back(harmonic / amplitude);
+    if (count++ % (cells / 4) == 0) {
+      wanted.x.push_back(computed.x.back());
+      wanted.y.push_back(there);
+    }
   }
+  results.plot({fmt::format("standing wave, {} cells", cells), "t / T", "amplitude / a", {computed, wanted}});
   return std::sqrt(sum / count);
 }
 
@@ -101,16 +109,17 @@ void run_viscous_wave(const Context& context, Results& results) {
   const double nu = 0.01 * std::sqrt(gravity * k) / (k * k);  // a wave loses 12 % of its height in a period
   const ExactWave exact(nu);
   results.expect_near("exact_start", exact(1e-9), "1", 1, 1e-6);  // the formula itself
-  const double coarse = error_on(32, exact, nu, context.threads), medium = error_on(64, exact, nu, context.threads);
+  const double coarse = error_on(32, exact, nu, context.threads, results), medium = error_on(64, exact, nu, context.threads, results);
   results.report("error_32", coarse, "1");
   if (context.quick()) {
     results.expect_below("error", medium, "1", 0.02);
     return;
   }
   results.report("error_64", medium, "1");
-  const double fine = error_on(128, exact, nu, context.threads);
+  const double fine = error_on(128, exact, nu, context.threads, results);
   results.expect_below("error", fine, "1", 0.01);
   results.expect_above("order", std::log2(coarse / fine) / 2, "1", 1.5);
+  results.refinement({"amplitude_error", "1", {length / 32, length / 64, length / 128}, {coarse, medium, fine}, 2, 0.0});
 }
 
 }  // namespace seaway::validation
