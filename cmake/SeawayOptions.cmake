@@ -41,6 +41,7 @@ if(SEAWAY_ASSERT OR CMAKE_BUILD_TYPE STREQUAL "Debug")
 endif()
 if(SEAWAY_SANITIZE)
   # Undefined behaviour ends the program: a test that only prints it would pass.
-  target_compile_options(seaway_flags INTERFACE -fsanitize=${SEAWAY_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # -O1 and line tables alone: half the time to compile, and nearly the same to run.
+  target_compile_options(seaway_flags INTERFACE -O1 -g1 -fsanitize=${SEAWAY_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(seaway_flags INTERFACE -fsanitize=${SEAWAY_SANITIZE})
 endif()
