@@ -102,7 +102,7 @@ TEST_F(JobLifeService, RetryFromAStageMakesWhatFollowsAgain) {
   const v1::Job again = client_->retry(request);
   EXPECT_EQ(again.base_job(), whole);
   EXPECT_EQ(again.latest_sequence(), 50);
-  EXPECT_EQ(client_->stages(again.name()).stages_size(), 1) << "of the others there is nothing to say yet";
+  EXPECT_LE(client_->stages(again.name()).stages_size(), 2) << "of the third there is nothing to say yet";
   *fake_.allowed_steps = 1'000'000;
   ASSERT_TRUE(reaches(again.name(), store::State::succeeded));
   const auto left = service_->store->samples(again.uid(), 0, 1000), right = service_->store->samples(whole.substr(5), 0, 1000);
