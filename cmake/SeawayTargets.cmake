@@ -28,5 +28,12 @@ function(seaway_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}")
+  seaway_time_limit(${name} ${ARG_TIMEOUT})
+endfunction()
+
+# seaway_time_limit(NAME s)  of a test; longer under sanitizers.
+function(seaway_time_limit name seconds)
+  math(EXPR limit "${seconds} * ${SEAWAY_SLOWDOWN}")
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${limit})
 endfunction()

@@ -143,6 +143,11 @@ void serve(Settings settings, const std::string& address_file, const jobs::Solve
   options.commit_interval = std::chrono::milliseconds(settings.commit_interval_ms);
   options.warn = [log](const std::string& text) { log->warn("event=store text=\"{}\"", text); };
   options.committed = [&metrics](double seconds) { metrics.committed(seconds); };
+  options.sync_failed = [log] {
+    log->critical("event=sync_failed text=\"the disk lost data that it had taken; look at it, then start again: jobs go on from what it holds\"");
+    log->flush();
+    ::_exit(1);  // nothing here may write any more; the workers die with us
+  };
   const auto store = store::open_sqlite_store(std::move(options));
   const store::Recovery recovery = store->recover(settings.max_stalled_attempts);
   metrics.recovered(static_cast<int>(recovery.requeued.size()));

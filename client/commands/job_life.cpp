@@ -33,15 +33,21 @@ void add_simple(CLI::App& app, Common& common, const char* name, const char* tex
 void add_retry(CLI::App& app, Common& common) {
   auto job = std::make_shared<std::string>();
   auto start = std::make_shared<bool>(false);
+  auto stage = std::make_shared<int>(0);
   CLI::App* sub = app.add_subcommand("retry", "a new job from an ended one, from its last checkpoint");
   sub->add_option("JOB", *job, "uid or latest")->required();
-  sub->add_flag("--from-start", *start, "from the beginning");
+  auto* from_start = sub->add_flag("--from-start", *start, "from the beginning");
+  sub->add_option("--from-stage", *stage, "from the beginning of this stage, 1 is the first")
+      ->check(CLI::Range(1, 16))
+      ->excludes(from_start);
   sub->callback([=, &common] {
     common.run = [=, &common](JobClient& c) {
       v1::RetryJobRequest request;
       request.set_name(c.resolve(*job));
       request.set_request_id(new_request_id());
       if (*start) request.set_from(v1::RetryJobRequest::FROM_START);
+      if (*stage > 0) request.set_from(v1::RetryJobRequest::FROM_STAGE);
+      request.set_stage(*stage);
       return print(c.retry(request), common.json);
     };
   });

@@ -69,6 +69,26 @@ v1::CreateSweepRequest make_request(const Options& o, const std::vector<CaseInpu
   return request;
 }
 
+/// What the service says about fields, with the lines of the files and the options that they were written in.
+std::string text_with_lines(const RpcError& error, const Options& o, const std::vector<CaseInput>& cases) {
+  std::string out;
+  for (const auto& [field, text] : error.violations()) {
+    yaml::Problem problem{{}, field, text, ""};
+    std::string file;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const std::string path = "cases[" + std::to_string(i) + "].case.";
+      if (!field.starts_with(path)) continue;
+      file = o.files[i];
+      problem.field = field.substr(path.size());
+      problem.at = cases[i].lines.find(problem.field);
+    }
+    for (const auto& [list, option] : {std::pair{"periods_s[", "--period"}, {"heights_m[", "--height"}, {"headings_deg[", "--heading"}})
+      if (field.starts_with(list)) problem.field = option;
+    out += (out.empty() ? "" : "\n") + yaml::to_text(file, problem);
+  }
+  return out;
+}
+
 double cpu_seconds(const v1::CreateSweepResponse& response) {
   double sum = 0;
   for (const auto& report : response.reports())
@@ -83,8 +103,8 @@ int create(JobClient& client, const Options& o, bool json) {
   try {
     response = client.create_sweep(make_request(o, cases));
   } catch (const RpcError& error) {
-    if (cases.size() == 1) rethrow_with_lines(error, cases.front(), o.files.front());
-    throw;
+    if (error.violations().empty()) throw;
+    throw ClientError(error.code(), text_with_lines(error, o, cases));
   }
   bool ok = true;
   for (const auto& report : response.reports()) ok = ok && report.ok();

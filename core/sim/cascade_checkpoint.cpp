@@ -1,4 +1,5 @@
-// Checkpoints of a run: written at intervals and at stage ends, the last two kept, the newest valid one used.
+// Checkpoints of a run: written at intervals and at stage ends; the last two and all stage ends kept, the newest valid one
+// used.
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include "core/base/version.hpp"
 #include "core/io/checkpoint.hpp"
 #include "core/sim/cascade_run.hpp"
+#include "core/sim/checkpoint_name.hpp"
 
 namespace seaway::sim {
 namespace {
@@ -80,6 +82,7 @@ template <int Dim>
 void CascadeRun<Dim>::prune_checkpoints() const {
   const auto found = checkpoints();
   for (std::size_t i = 2; i < found.size(); ++i) {
+    if (stage_ended_in(found[i])) continue;
     std::error_code ignored;
     fs::remove(found[i], ignored);
   }
@@ -142,7 +145,8 @@ void CascadeRun<Dim>::write_checkpoint() {
     writer.add(fmt::format("w{}", axis), io::pack<Dim>(s.forest(), s.state().w, axis));
   }
   // A stage's end sorts after the same sample inside the stage.
-  const std::string path = fmt::format("{}/{}{:010d}{}.ck", options_.folder, prefix, sequence_, stage_.finished ? "e" : "a");
+  const std::string path = fmt::format("{}/{}{:010d}{}.ck", options_.folder, prefix, sequence_,
+                                       stage_.finished ? fmt::format("e{}", stage_.index) : "a");
   writer.write(path, options_.case_digest);
   last_checkpoint_ = Clock::now();
   observer_.on_checkpoint(path, sequence_, std::chrono::duration<double>(last_checkpoint_ - began).count());

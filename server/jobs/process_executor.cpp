@@ -30,7 +30,7 @@ class ProcessExecutor final : public Executor {
       out = Supervision(settings_, workspace_, store_, log_, job).run(control);
     } catch (const std::exception& error) {
       const auto reason = says_no_space(error.what()) ? store::Reason::disk_full : store::Reason::executor_lost;
-      out = {RunResult::End::fault, reason, error.what()};
+      out = {RunResult::End::fault, reason, error.what(), says_no_resources(error.what())};
     }
     ::unlink(workspace_.lease_path(job.uid).c_str());
     return out;

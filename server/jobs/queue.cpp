@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/version.hpp"
+#include "core/sim/checkpoint_name.hpp"
 #include "server/convert/input_error.hpp"
 #include "server/convert/result.hpp"
 #include "server/jobs/requests.hpp"
@@ -171,15 +172,36 @@ store::Job Queue::update(const std::string& uid, const store::JobUpdate& update)
   return store_.update(uid, update);
 }
 
-store::Job Queue::retry(const std::string& uid, const std::string& request_id, RetryFrom from) {
+/// The checkpoint that a retry begins with; none: from the start.
+std::optional<store::Checkpoint> Queue::place_to_retry(const store::Job& base, RetryFrom from, int stage) const {
+  if (from != RetryFrom::stage && stage != 0) refuse("INVALID_REQUEST", "stage", "is given", "ask for FROM_STAGE, or leave it out");
+  if (from == RetryFrom::start) return std::nullopt;
+  const std::vector<store::Checkpoint> known = store_.checkpoints(base.uid);
+  if (from != RetryFrom::stage) {
+    auto newest = workspace_.newest_checkpoint(known);
+    if (!newest && from == RetryFrom::checkpoint)
+      fail(ErrorCode::failed_precondition, "job {} has no checkpoint; retry it from the start", base.uid);
+    return newest;
+  }
+  const int n = decode_spec(base.spec).case_().cascade().stages_size();
+  if (stage < 1 || stage > n)
+    refuse("INVALID_REQUEST", "stage", fmt::format("{} is not allowed", stage), fmt::format("must be 1 to {}", n));
+  if (stage == 1) return std::nullopt;
+  std::vector<store::Checkpoint> ends;
+  for (const store::Checkpoint& c : known)
+    if (sim::stage_ended_in(c.path) == stage - 2) ends.push_back(c);
+  auto end = workspace_.newest_checkpoint(ends);
+  if (!end)
+    fail(ErrorCode::failed_precondition, "job {} has not kept an end of stage {}; retry it from an earlier stage", base.uid, stage - 1);
+  return end;
+}
+
+store::Job Queue::retry(const std::string& uid, const std::string& request_id, RetryFrom from, int stage) {
   if (!is_uuid(request_id)) refuse("INVALID_REQUEST", "request_id", "is no UUID", "make a new UUID for each retry");
   const auto base = store_.find(uid);
   if (!base) fail(ErrorCode::not_found, "job {} does not exist; list the jobs to find its name", uid);
   if (!store::is_terminal(base->state)) fail(ErrorCode::failed_precondition, "job {} has not ended; cancel it first", uid);
-  std::optional<store::Checkpoint> checkpoint;
-  if (from != RetryFrom::start) checkpoint = workspace_.newest_checkpoint(store_.checkpoints(uid));
-  if (!checkpoint && from == RetryFrom::checkpoint)
-    fail(ErrorCode::failed_precondition, "job {} has no checkpoint; retry it from the start", uid);
+  const std::optional<store::Checkpoint> checkpoint = place_to_retry(*base, from, stage);
   store::NewJob job;
   job.uid = make_uid_();
   job.request_id = lower(request_id);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "server/jobs/report_cache.hpp"
@@ -34,7 +35,7 @@ std::string new_uid();
 bool is_uid(const std::string& text);
 
 /// `any`: from the last checkpoint if there is one.
-enum class RetryFrom { any, start, checkpoint };
+enum class RetryFrom { any, start, checkpoint, stage };
 
 class Queue {
  public:
@@ -60,8 +61,9 @@ class Queue {
   store::Job release(const std::string& uid);
   /// Throws not_found, and InputError for malformed labels and the like.
   store::Job update(const std::string& uid, const store::JobUpdate& update);
-  /// A new job from one that has ended. Throws not_found, InputError (request id), failed_precondition.
-  store::Job retry(const std::string& uid, const std::string& request_id, RetryFrom from);
+  /// A new job from one that has ended; `stage` (from 1) belongs to RetryFrom::stage, it is 0 for others. Throws not_found,
+  /// InputError (request id, stage), failed_precondition.
+  store::Job retry(const std::string& uid, const std::string& request_id, RetryFrom from, int stage = 0);
   /// Throws not_found, and failed_precondition if the job has not ended.
   void erase(const std::string& uid);
   /// Erases jobs that ended before this time, at most a hundred; how many.
@@ -79,6 +81,7 @@ class Queue {
   const std::function<void()> wake_;
   /// Throws for a case that its check refuses, or that costs too much.
   void require_runnable(const v1::CaseReport& report) const;
+  std::optional<store::Checkpoint> place_to_retry(const store::Job& base, RetryFrom from, int stage) const;
   store::Job shift(const std::string& uid, store::State from, store::State to, const std::string& what);
   const std::function<void(const std::string&)> stop_, kill_;
   const std::function<std::string()> make_uid_;

@@ -8,10 +8,6 @@
 namespace seaway::jobs {
 namespace {
 
-bool is_text(const std::string& text) {
-  return std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
-}
-
 bool is_label_key(const std::string& key) {
   return !key.empty() && key.size() <= 63 && std::all_of(key.begin(), key.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
@@ -23,6 +19,10 @@ bool is_label_key(const std::string& key) {
 [[noreturn]] void refuse(const std::string& reason, const std::string& field, const std::string& message,
                          const std::string& hint) {
   throw convert::InputError(reason, {{sim::Diagnostic::Severity::error, field, message, hint}});
+}
+
+bool is_text(const std::string& text) {
+  return std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
 }
 
 bool is_uuid(const std::string& text) {

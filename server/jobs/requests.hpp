@@ -12,6 +12,8 @@ namespace seaway::jobs {
 [[noreturn]] void refuse(const std::string& reason, const std::string& field, const std::string& message,
                          const std::string& hint);
 
+/// Nothing that steers a terminal: no control characters, not even the end of a line.
+bool is_text(const std::string& text);
 bool is_uuid(const std::string& text);
 std::string lower(std::string text);
 

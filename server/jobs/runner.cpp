@@ -48,6 +48,12 @@ bool says_no_space(std::string_view message) {
   return message.find(std::strerror(ENOSPC)) != message.npos || message.find(std::strerror(EDQUOT)) != message.npos;
 }
 
+bool says_no_resources(std::string_view message) {
+  for (const int code : {EMFILE, ENFILE, EAGAIN, ENOMEM})
+    if (message.find(std::strerror(code)) != message.npos) return true;
+  return false;
+}
+
 RunResult guarded(const std::function<sim::RunOutcome()>& run) {
   try {
     return to_result(run());
@@ -85,7 +91,11 @@ std::optional<store::Job> end_attempt(store::JobStore& store, const std::string&
     case RunResult::End::failed:
       return first(Move{State::running, State::failed, result.reason, result.message},
                    Move{State::cancelling, State::failed, result.reason, result.message});
-    case RunResult::End::fault: return store.end_by_fault(uid, result.reason, result.message, max_faults);
+    case RunResult::End::fault:
+      if (result.shortage)
+        return first(Move{State::cancelling, State::cancelled, Reason::user, result.message},
+                     Move{State::running, State::queued, result.reason, result.message});
+      return store.end_by_fault(uid, result.reason, result.message, max_faults);
   }
   return std::nullopt;
 }

@@ -31,10 +31,14 @@ struct RunResult {
   End end = End::failed;
   store::Reason reason = store::Reason::none;  ///< failed, fault
   std::string message;
+  /// With `fault`: the machine had nothing left for it. Neither worker nor case is to blame, and it does not count.
+  bool shortage = false;
 };
 
 /// Whether a failure says that the disk is full; the solver reports that under several codes.
 bool says_no_space(std::string_view message);
+/// Whether a failure says that there are no descriptors, processes or memory left.
+bool says_no_resources(std::string_view message);
 /// What a run of the solver comes to, its exceptions included. Never throws.
 RunResult guarded(const std::function<sim::RunOutcome()>& run);
 

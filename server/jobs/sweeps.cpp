@@ -49,12 +49,13 @@ void check_request(const v1::CreateSweepRequest& r) {
   check_traits("", r.priority(), {r.labels().begin(), r.labels().end()}, r.note());
   if (r.labels().contains("sweep")) refuse("INVALID_REQUEST", "labels.sweep", "is set by the service", "use another key");
   if (r.title().size() > 200) refuse("INVALID_REQUEST", "title", fmt::format("{} bytes", r.title().size()), "at most 200");
+  if (!is_text(r.title())) refuse("INVALID_REQUEST", "title", "has control characters", "write one line of text");
   if (r.cases_size() == 0) refuse("INVALID_REQUEST", "cases", "is empty", "give at least one case in regular waves");
   std::set<std::string> names;
   for (int i = 0; i < r.cases_size(); ++i) {
     const std::string path = fmt::format("cases[{}]", i);
     if (!is_name(r.cases(i).name()))
-      refuse("INVALID_REQUEST", path + ".name", "'" + r.cases(i).name() + "' is no name", "1 to 40 letters, digits, _, - and dots");
+      refuse("INVALID_REQUEST", path + ".name", r.cases(i).name().empty() ? "is missing" : "is no name", "1 to 40 letters, digits, _, - and dots");
     if (!names.insert(r.cases(i).name()).second) refuse("INVALID_REQUEST", path + ".name", "'" + r.cases(i).name() + "' is used twice", "give each case its own name");
     if (!r.cases(i).case_().wave().has_regular())
       refuse("INVALID_REQUEST", path + ".case.wave", "is no regular wave", "a sweep varies period, height and heading of wave.regular");
@@ -72,6 +73,9 @@ struct Planned {
   v1::Case message;
   const Files* files;
   store::SweepPoint point;
+  int base = 0;                                ///< which of the cases
+  int heading = -1, height = -1, period = -1;  ///< which of the values; -1: what the case says
+  std::string text = {};                       ///< what is particular, for people
 };
 
 store::SweepPoint point_of(const std::string& case_name, const v1::RegularWave& w) {
@@ -80,10 +84,11 @@ store::SweepPoint point_of(const std::string& case_name, const v1::RegularWave& 
 }
 
 /// Applies the i-th value of each list that has any; -1: the list is empty.
-Planned plan_one(const v1::CreateSweepRequest& r, const v1::SweepCase& base, int heading, int height, int period) {
-  Planned out{base.case_(), &base.files(), {}};
+Planned plan_one(const v1::CreateSweepRequest& r, int base_index, int heading, int height, int period) {
+  const v1::SweepCase& base = r.cases(base_index);
+  Planned out{base.case_(), &base.files(), {}, base_index, heading, height, period};
   v1::RegularWave& wave = *out.message.mutable_wave()->mutable_regular();
-  std::string text = r.cases_size() > 1 ? base.name() : "";
+  std::string& text = out.text = r.cases_size() > 1 ? base.name() : "";
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   if (heading >= 0) {
     wave.set_heading_deg(r.headings_deg(heading));
@@ -107,7 +112,7 @@ Planned plan_one(const v1::CreateSweepRequest& r, const v1::SweepCase& base, int
 std::vector<Planned> plan(const v1::CreateSweepRequest& r) {
   std::vector<Planned> out;
   const auto first = [](const Values& v) { return v.empty() ? -1 : 0; };
-  for (const v1::SweepCase& base : r.cases())
+  for (int base = 0; base < r.cases_size(); ++base)
     for (int heading = first(r.headings_deg()); heading < r.headings_deg_size(); ++heading)
       for (int height = first(r.heights_m()); height < r.heights_m_size(); ++height)
         for (int period = first(r.periods_s()); period < r.periods_s_size(); ++period)
@@ -115,10 +120,21 @@ std::vector<Planned> plan(const v1::CreateSweepRequest& r) {
   return out;
 }
 
+/// Where a field of a job's case stands in the request.
+std::string field_in_request(const Planned& job, const std::string& field) {
+  if (field == "wave.regular.heading_deg" && job.heading >= 0) return fmt::format("headings_deg[{}]", job.heading);
+  if (field == "wave.regular.height_m" && job.height >= 0) return fmt::format("heights_m[{}]", job.height);
+  if (field == "wave.regular.period_s" && job.period >= 0) return fmt::format("periods_s[{}]", job.period);
+  return fmt::format("cases[{}].{}{}", job.base, field.starts_with("files") ? "" : "case.", field);
+}
+
 /// Problems of one job, with the job that they belong to.
 [[noreturn]] void rethrow_for(const Planned& job, const convert::InputError& error) {
   std::vector<sim::Diagnostic> problems = error.problems();
-  for (auto& p : problems) p.message += " (in '" + job.message.title() + "')";
+  for (auto& p : problems) {
+    p.field = field_in_request(job, p.field);
+    if (!job.text.empty()) p.message += " (" + job.text + ")";
+  }
   throw convert::InputError(error.reason(), std::move(problems));
 }
 
@@ -128,9 +144,9 @@ SubmittedSweep Queue::submit_sweep(const v1::CreateSweepRequest& request) {
   check_request(request);
   SubmittedSweep out;
   const std::vector<Planned> planned = plan(request);
-  for (const v1::SweepCase& one : request.cases()) check_files(one.files());
   for (const Planned& job : planned) {
     try {
+      check_files(*job.files);
       out.reports.push_back(report_of(job.message, *job.files, sha256_hex(encode_spec(job.message, *job.files))));
       if (!request.validate_only()) require_runnable(out.reports.back());
     } catch (const convert::InputError& error) {
@@ -173,7 +189,7 @@ SubmittedSweep Queue::submit_sweep(const v1::CreateSweepRequest& request) {
 
 store::Sweep Queue::cancel_sweep(const std::string& uid) {
   const auto sweep = store_.find_sweep(uid);
-  if (!sweep) fail(ErrorCode::not_found, "sweep {} does not exist", uid);
+  if (!sweep) fail(ErrorCode::not_found, "sweep {} does not exist; list the sweeps to find its name", uid);
   // Backwards: what waits goes first, so that no worker takes it when the running one ends.
   for (auto member = sweep->members.rbegin(); member != sweep->members.rend(); ++member) {
     if (!member->exists || store::is_terminal(member->state)) continue;
@@ -183,7 +199,7 @@ store::Sweep Queue::cancel_sweep(const std::string& uid) {
       if (error.code() != ErrorCode::failed_precondition && error.code() != ErrorCode::not_found) throw;
     }
   }
-  return *store_.find_sweep(uid);
+  return store_.find_sweep(uid).value_or(*sweep);  // its last job may have been deleted in between
 }
 
 }  // namespace seaway::jobs

@@ -4,8 +4,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <limits>
-
 #include "core/base/error.hpp"
 
 namespace seaway::jobs {
@@ -111,13 +109,20 @@ bool WorkerPool::try_end(const std::string& uid, const RunResult& result) {
   const bool fault = result.end == RunResult::End::fault;
   const bool full = fault && result.reason == Reason::disk_full && !workspace_.has_space();
   // A full disk does not count: the job waits for space as long as it takes.
-  const auto job = end_attempt(store_, uid, result, full ? std::numeric_limits<int>::max() : settings_.max_faults);
+  RunResult counted = result;
+  counted.shortage = result.shortage || full;
+  const auto job = end_attempt(store_, uid, counted, settings_.max_faults);
   if (!job) return false;
   log_->log(fault ? spdlog::level::warn : spdlog::level::info,
             "job={} event={} state={} reason={} faults={} samples={} text=\"{}\"", uid, fault ? "fault" : "ended",
             store::to_string(job->state), store::to_string(job->reason), job->faults, job->last_sequence, job->message);
   if (fault && job->state == State::queued && settings_.metrics != nullptr) settings_.metrics->recovered(1);
-  if (full) wait_for_space();
+  if (full) {
+    wait_for_space();
+  } else if (result.shortage) {
+    std::unique_lock lock(mutex_);
+    wake_.wait_for(lock, std::chrono::seconds(1), [&] { return draining_; });
+  }
   if (job->state == State::queued) wake();
   return true;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "server/reports/decay_report.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "core/analysis/decay.hpp"
@@ -15,15 +17,6 @@ namespace {
 void put(const analysis::Estimate& from, v1::Estimate& to) {
   to.set_value(from.value);
   if (from.interval >= 0) to.set_interval(from.interval);
-}
-
-void check(const v1::DecayOptions& options) {
-  convert::Checker check;
-  check.finite(options, "options");
-  if (options.has_smallest_peak()) check.number("options.smallest_peak", options.smallest_peak(), {0.001, 0.5});
-  if (options.has_from_s() && options.has_until_s() && !(options.from_s() < options.until_s()))
-    check.problem("options.until_s", "is not later than from_s", "give a later time");
-  if (!check.ok()) throw convert::InputError("INVALID_REQUEST", check.take());
 }
 
 /// The samples that the options leave, from the release on.
@@ -78,11 +71,31 @@ void put(const analysis::Decay& decay, v1::DecayReport& out) {
 
 }  // namespace
 
+void check_options(const v1::DecayOptions& options) {
+  convert::Checker check;
+  check.finite(options, "options");
+  if (!options.channel().empty()) check.line("options.channel", options.channel(), 60);
+  if (options.has_smallest_peak()) check.number("options.smallest_peak", options.smallest_peak(), {0.001, 0.5});
+  if (options.has_from_s() && options.has_until_s() && !(options.from_s() < options.until_s()))
+    check.problem("options.until_s", "is not later than from_s", "give a later time");
+  if (!check.ok()) throw convert::InputError("INVALID_REQUEST", check.take());
+}
+
+std::string find_channel(const std::string& source, const std::vector<std::string>& names, const v1::DecayOptions& options) {
+  if (names.empty()) fail(ErrorCode::failed_precondition, "{} has no samples yet; ask again when it has run", source);
+  std::string name = options.channel().empty() ? "roll" : options.channel();
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw convert::InputError("INVALID_REQUEST",
+                              {{sim::Diagnostic::Severity::error, "options.channel", fmt::format("'{}' is no channel of {}", name, source),
+                                fmt::format("choose one of {}", fmt::join(names, ", "))}});
+  return name;
+}
+
 v1::DecayReport make_decay_report(const Run& run, const v1::DecayOptions& options) {
-  check(options);
-  const std::string name = options.channel().empty() ? "roll" : options.channel();
-  const History::Channel* channel = run.history.find(name);
-  if (channel == nullptr) fail(ErrorCode::not_found, "{} has no channel '{}'", run.source, name);
+  check_options(options);
+  std::vector<std::string> names;
+  for (const History::Channel& channel : run.history.channels) names.push_back(channel.name);
+  const History::Channel* channel = run.history.find(find_channel(run.source, names, options));
   v1::DecayReport out;
   out.set_source(run.source);
   out.set_title(run.title);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "server/rpc/access.hpp"
 
+#include <grpcpp/security/tls_certificate_provider.h>
+#include <grpcpp/security/tls_credentials_options.h>
+
 #include <fstream>
 #include <iterator>
 
@@ -44,11 +47,19 @@ std::shared_ptr<grpc::ServerCredentials> Access::credentials(const std::string& 
   for (const Principal& p : s.principals)
     SEAWAY_CHECK(p.subject.empty() || !s.client_ca.empty(), "security.principals: subject of {} needs client_ca", p.name);
   if (s.certificate.empty()) return grpc::InsecureServerCredentials();
-  grpc::SslServerCredentialsOptions options(s.client_ca.empty() ? GRPC_SSL_DONT_REQUEST_CLIENT_CERTIFICATE
-                                                                : GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
-  options.pem_key_cert_pairs.push_back({read_pem("key", s.key), read_pem("certificate", s.certificate)});
-  if (!s.client_ca.empty()) options.pem_root_certs = read_pem("client_ca", s.client_ca);
-  return grpc::SslServerCredentials(options);
+  read_pem("key", s.key);
+  read_pem("certificate", s.certificate);
+  if (!s.client_ca.empty()) read_pem("client_ca", s.client_ca);
+  // New handshakes take what is in the files; connections that stand are not touched.
+  grpc::experimental::TlsServerCredentialsOptions options(std::make_shared<grpc::experimental::FileWatcherCertificateProvider>(
+      s.key, s.certificate, s.client_ca, s.certificate_refresh_s));
+  options.watch_identity_key_cert_pairs();
+  options.set_cert_request_type(GRPC_SSL_DONT_REQUEST_CLIENT_CERTIFICATE);
+  if (!s.client_ca.empty()) {
+    options.watch_root_certs();
+    options.set_cert_request_type(GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
+  }
+  return grpc::experimental::TlsServerCredentials(options);
 }
 
 const Principal* Access::find(const grpc::ServerContextBase& context) const {

@@ -26,6 +26,7 @@ struct Principal {
 
 struct AccessSettings {
   std::string certificate, key, client_ca;  ///< PEM files; no certificate: no TLS
+  unsigned certificate_refresh_s = 30;      ///< how often they are read again
   std::vector<Principal> principals;        ///< none: everybody may do everything
 };
 

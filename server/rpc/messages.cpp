@@ -28,6 +28,17 @@ unsigned token_key(std::int64_t before_id, const store::ListQuery& filter) {
   return key;
 }
 
+/// There is one way to write each token, and `make` knows it.
+template <class Make>
+std::int64_t parse_token(const std::string& token, Make make) {
+  if (token.empty()) return 0;
+  std::int64_t id = 0;
+  std::from_chars(token.data() + (token[0] == 's' ? 1 : 0), token.data() + token.size(), id, 16);
+  if (id <= 0 || token != make(id))
+    refuse_field("page_token", "does not belong to this list", "use next_page_token of the page before, with the same filter");
+  return id;
+}
+
 }  // namespace
 
 v1::Progress to_proto(const store::Progress& p) {
@@ -175,13 +186,11 @@ std::string make_page_token(std::int64_t before_id, const store::ListQuery& filt
 }
 
 std::int64_t parse_page_token(const std::string& token, const store::ListQuery& filter) {
-  if (token.empty()) return 0;
-  std::int64_t id = 0;
-  std::from_chars(token.data(), token.data() + token.size(), id, 16);
-  // There is one way to write each token.
-  if (id <= 0 || token != make_page_token(id, filter))
-    refuse_field("page_token", "does not belong to this list", "use next_page_token of the page before, with the same filter");
-  return id;
+  return parse_token(token, [&](std::int64_t id) { return make_page_token(id, filter); });
 }
+
+std::string make_sweep_token(std::int64_t before_id) { return fmt::format("s{}", make_page_token(before_id, {})); }
+
+std::int64_t parse_sweep_token(const std::string& token) { return parse_token(token, make_sweep_token); }
 
 }  // namespace seaway::rpc

@@ -20,16 +20,18 @@ v1::SampleChunk to_proto(const std::vector<store::Sample>& samples, const std::v
 void to_proto(const std::vector<store::EnvelopePoint>& points, const std::vector<store::Channel>& channels,
               v1::ReadEnvelopeResponse& out);
 
-/// uid out of jobs/<uid>. Throws convert::InputError naming `field`.
 v1::Sweep to_proto(const store::Sweep& sweep, bool with_points);
-/// The uid out of sweeps/<uid>.
-std::string parse_sweep_name(const std::string& name, const std::string& field);
+/// The uid out of jobs/<uid> or sweeps/<uid>. Throws convert::InputError naming `field`.
 std::string parse_job_name(const std::string& name, const std::string& field);
+std::string parse_sweep_name(const std::string& name, const std::string& field);
 
 /// Where a list goes on, tied to its filter.
 std::string make_page_token(std::int64_t before_id, const store::ListQuery& filter);
 /// 0 for an empty token. Throws convert::InputError for one that was not made for this list.
 std::int64_t parse_page_token(const std::string& token, const store::ListQuery& filter);
+/// As those, of the list of sweeps.
+std::string make_sweep_token(std::int64_t before_id);
+std::int64_t parse_sweep_token(const std::string& token);
 
 [[noreturn]] void refuse_field(const std::string& field, const std::string& message, const std::string& hint);
 

@@ -45,7 +45,7 @@ const std::set<std::string> motions{"surge", "sway", "heave", "roll", "pitch", "
 store::Sweep find_sweep(const Backend& b, const std::string& name, const std::string& field) {
   const std::string uid = parse_sweep_name(name, field);
   auto sweep = b.store.find_sweep(uid);
-  if (!sweep) fail(ErrorCode::not_found, "sweep {} does not exist", uid);
+  if (!sweep) fail(ErrorCode::not_found, "sweep {} does not exist; list the sweeps to find its name", uid);
   return std::move(*sweep);
 }
 
@@ -86,9 +86,13 @@ grpc::ServerUnaryReactor* ReportsService::GetDecayReport(grpc::CallbackServerCon
                                                          const v1::GetDecayReportRequest* request,
                                                          v1::DecayReport* response) {
   return answer(b_, context, {Role::viewer, "GetDecayReport"}, request->job(), [b = b_, request, response] {
+    const v1::DecayOptions& options = request->options();
+    reports::check_options(options);
     const store::Job job = find_job(b, request->job(), "job");
-    const std::string& channel = request->options().channel();
-    *response = reports::make_decay_report(load_run(b, job, {channel.empty() ? "roll" : channel}), request->options());
+    std::vector<std::string> names;
+    for (const store::Channel& channel : b.store.channels(job.uid)) names.push_back(channel.name);
+    const std::string channel = reports::find_channel("jobs/" + job.uid, names, options);
+    *response = reports::make_decay_report(load_run(b, job, {channel}), options);
   });
 }
 
@@ -126,9 +130,9 @@ grpc::ServerUnaryReactor* SweepsService::ListSweeps(grpc::CallbackServerContext*
                                                     const v1::ListSweepsRequest* request, v1::ListSweepsResponse* response) {
   return answer(b_, context, {Role::viewer, "ListSweeps"}, "sweeps", [b = b_, request, response] {
     const int limit = page_size(request->page_size(), 50, 1000);
-    const auto sweeps = b.store.list_sweeps(parse_page_token(request->page_token(), {}), limit);
+    const auto sweeps = b.store.list_sweeps(parse_sweep_token(request->page_token()), limit);
     for (const store::Sweep& sweep : sweeps) *response->add_sweeps() = to_proto(sweep, false);
-    if (static_cast<int>(sweeps.size()) == limit) response->set_next_page_token(make_page_token(sweeps.back().id, {}));
+    if (static_cast<int>(sweeps.size()) == limit) response->set_next_page_token(make_sweep_token(sweeps.back().id));
   });
 }
 

@@ -118,9 +118,10 @@ grpc::ServerUnaryReactor* JobsService::RetryJob(grpc::CallbackServerContext* con
       case v1::RetryJobRequest::FROM_UNSPECIFIED: break;
       case v1::RetryJobRequest::FROM_START: from = jobs::RetryFrom::start; break;
       case v1::RetryJobRequest::FROM_LAST_CHECKPOINT: from = jobs::RetryFrom::checkpoint; break;
+      case v1::RetryJobRequest::FROM_STAGE: from = jobs::RetryFrom::stage; break;
       default: refuse_field("from", "is unknown", "see RetryJobRequest.From");
     }
-    *response = to_proto(b.queue.retry(parse_job_name(request->name(), "name"), request->request_id(), from));
+    *response = to_proto(b.queue.retry(parse_job_name(request->name(), "name"), request->request_id(), from, request->stage()));
   });
 }
 

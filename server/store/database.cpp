@@ -12,6 +12,8 @@ namespace {
 
 [[noreturn]] void raise(sqlite3* db, int code, std::string_view what) {
   const std::string text = db != nullptr ? sqlite3_errmsg(db) : sqlite3_errstr(code);
+  if (code == SQLITE_IOERR_FSYNC || code == SQLITE_IOERR_DIR_FSYNC)
+    throw SyncFailed(fmt::format("database: the disk lost data that it had taken: {} ({})", text, what));
   switch (code & 0xff) {
     case SQLITE_FULL:
     case SQLITE_IOERR:
@@ -111,8 +113,9 @@ void Database::copy_to(const std::string& path) {
 }
 
 void Database::checkpoint(bool truncate) {
-  sqlite3_wal_checkpoint_v2(db_, nullptr, truncate ? SQLITE_CHECKPOINT_TRUNCATE : SQLITE_CHECKPOINT_PASSIVE,
-                            nullptr, nullptr);
+  const int code = sqlite3_wal_checkpoint_v2(db_, nullptr, truncate ? SQLITE_CHECKPOINT_TRUNCATE : SQLITE_CHECKPOINT_PASSIVE,
+                                             nullptr, nullptr);
+  if (code == SQLITE_IOERR_FSYNC) raise(db_, code, "checkpoint");  // any other trouble: the log stays, the next one moves it
 }
 
 Statement::~Statement() {

@@ -12,9 +12,18 @@
 struct sqlite3;
 struct sqlite3_stmt;
 
+#include "core/base/error.hpp"
+
 namespace seaway::store {
 
 class Statement;
+
+/// The disk took data and could then not make it durable: what it holds is not known any more, and asking it again would be
+/// answered with yes (https://lwn.net/Articles/752063). Only a new start tells, from what can be read.
+class SyncFailed : public Error {
+ public:
+  explicit SyncFailed(const std::string& message) : Error(ErrorCode::unavailable, message) {}
+};
 
 class Database {
  public:

@@ -43,7 +43,9 @@ Job adopt_history(Database& db, const std::string& uid, const std::string& from,
     add_samples(db, uid, part, now);
     at = part.back().sequence;
   }
-  for (const StageRow& stage : stages(db, from)) put_stage(db, uid, stage);
+  const auto last = samples(db, from, checkpoint.sequence - 1, 1);
+  for (const StageRow& stage : stages(db, from))  // those that follow will be made again
+    if (!last.empty() && stage.stage <= last.front().stage) put_stage(db, uid, stage);
   add_checkpoint(db, uid, checkpoint, now);
   add_event(db, uid, "RETRY", fmt::format("goes on after sample {} of job {}", checkpoint.sequence, from), now);
   return *move(db, uid, State::held, State::queued, Reason::none, "", now);

@@ -85,7 +85,7 @@ class SqliteStore final : public JobStore {
         lock_(o.vfs.empty() ? std::make_unique<LockFile>(o.path + ".lock") : nullptr),
         prepared_(prepare_file(o.path, o.vfs)),
         readers_(o.path, o.vfs, std::max(1, o.readers)),
-        writer_({o.path, o.vfs, o.commit_interval, o.own_thread, o.publish_too_early, o.committed}, [this](const auto& uids) { publish(uids); }, warn_) {}
+        writer_({o.path, o.vfs, o.commit_interval, o.own_thread, o.publish_too_early, o.committed, o.sync_failed}, [this](const auto& uids) { publish(uids); }, warn_) {}
 
   Created create(const NewJob& job) override { return create_limited(job, 0); }
 

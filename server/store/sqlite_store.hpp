@@ -20,6 +20,8 @@ struct SqliteOptions {
   std::function<std::int64_t()> now_ns;              ///< empty: the system's clock
   std::function<void(const std::string&)> warn;      ///< something a person should know
   std::function<void(double seconds)> committed;     ///< told how long each transaction took
+  /// Told that a sync has failed, after which nothing is written any more: end the process. Empty: all calls fail.
+  std::function<void()> sync_failed;
   /// For simulations: another disk under SQLite (empty: the system's), and no thread of its own. Then what was
   /// handed over becomes durable with the next call that waits; the lock file is left out.
   std::string vfs;

@@ -21,7 +21,8 @@ Writer::Writer(const Options& o, Committed committed, Warn warn)
       publish_too_early_(o.publish_too_early),
       committed_(std::move(committed)),
       warn_(std::move(warn)),
-      timed_(o.timed) {
+      timed_(o.timed),
+      sync_failed_(o.sync_failed) {
   if (own_thread_) thread_ = std::thread([this] { loop(); });
 }
 
@@ -32,7 +33,22 @@ Writer::~Writer() {
   }
   wake_.notify_all();
   if (thread_.joinable()) thread_.join();
-  if (own_thread_) db_.checkpoint(true);
+  if (own_thread_) checkpoint(true);
+}
+
+void Writer::checkpoint(bool truncate) {
+  if (broken_) return;
+  try {
+    db_.checkpoint(truncate);
+  } catch (const SyncFailed& error) {
+    give_up(error.what());
+  }
+}
+
+void Writer::give_up(const std::string& why) {
+  stuck_ = broken_ = true;
+  warn_(why);
+  if (sync_failed_) sync_failed_();
 }
 
 void Writer::call(Change change) {
@@ -112,6 +128,7 @@ bool Writer::commit(std::deque<Task>& batch) {
     batch = std::move(posted);
   };
   try {
+    if (broken_) fail(ErrorCode::unavailable, "the disk has lost data; the server must be started again");
     db_.prepare("BEGIN IMMEDIATE").run();
     for (std::size_t i = 0; i < batch.size(); ++i) {
       std::set<std::string> changed;
@@ -141,6 +158,7 @@ bool Writer::commit(std::deque<Task>& batch) {
       // SQLite has rolled back by itself.
     }
     warn_(std::string("commit refused: ") + error.what());
+    if (dynamic_cast<const SyncFailed*>(&error) != nullptr) give_up(error.what());
     if (published) {
       batch.clear();
       return true;
@@ -153,7 +171,7 @@ bool Writer::commit(std::deque<Task>& batch) {
   if (timed_) timed_(std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   if (!published) publish(batch, touched, failures);
   batch.clear();
-  if (db_.wal_pages() > passive_pages) db_.checkpoint(db_.wal_pages() > truncate_pages);
+  if (db_.wal_pages() > passive_pages) checkpoint(db_.wal_pages() > truncate_pages);
   return true;
 }
 

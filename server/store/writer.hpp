@@ -34,6 +34,7 @@ class Writer {
     bool own_thread = true;                   ///< otherwise call() writes what waits, in the caller's thread
     bool publish_too_early = false;           ///< see SqliteOptions
     std::function<void(double)> timed{};      ///< told how long each commit took [s]
+    std::function<void()> sync_failed{};      ///< see SqliteOptions
   };
   /// `committed` is called after each commit.
   Writer(const Options& options, Committed committed, Warn warn);
@@ -57,6 +58,8 @@ class Writer {
   };
   void loop();
   bool commit(std::deque<Task>& batch);
+  void checkpoint(bool truncate);
+  void give_up(const std::string& why);
   void publish(std::deque<Task>& batch, const std::set<std::string>& touched, const std::vector<std::exception_ptr>& failures);
 
   Database db_;
@@ -65,6 +68,7 @@ class Writer {
   const Committed committed_;
   const Warn warn_;
   const std::function<void(double)> timed_;
+  const std::function<void()> sync_failed_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Task> tasks_;     // guarded by mutex_
@@ -72,6 +76,7 @@ class Writer {
   bool stopping_ = false;      // guarded by mutex_
   std::chrono::steady_clock::time_point oldest_;  // guarded by mutex_: when the first task was queued
   std::atomic<bool> stuck_{false};
+  std::atomic<bool> broken_{false};  ///< a sync has failed: nothing is written any more
   std::thread thread_;         // last: uses all of the above
 };
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/process.hpp"
@@ -54,7 +55,11 @@ TEST_F(Reports, ASweepFromTheCommandLineToItsCurve) {
   EXPECT_NEAR(json::parse(more.output)["points"][0]["motions"][1]["amplitude"].get<double>(), 0.02 * (1 + 0.1 / 3), 3e-4);
   EXPECT_EQ(seaway({"rao"}).code, 2);
   EXPECT_EQ(seaway({"sweep", small, "--period", "1.2,1.2"}).code, 2);
-  EXPECT_THAT(seaway({"sweep", small, "--height", "-1"}).output, HasSubstr("small.yaml:11:5: wave.regular.height_m: -1 is not allowed"));
+  EXPECT_THAT(seaway({"sweep", small, "--height", "-1"}).output, HasSubstr("--height: -1 is not allowed"));
+  std::string wrong = read_text(small);
+  wrong.replace(wrong.find("dimension: 2"), 12, "dimension: 4");
+  std::ofstream(folder_ / "wrong.yaml") << wrong;
+  EXPECT_THAT(seaway({"sweep", small, folder_ / "wrong.yaml", "--period", "1.2"}).output, HasSubstr("wrong.yaml:3:1: dimension: 4"));
   EXPECT_EQ(seaway({"sweeps", "latest", "--cancel"}).code, 0);
   EXPECT_EQ(seaway({"sweeps", "nothing"}).code, 5);
 }

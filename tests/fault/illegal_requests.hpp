@@ -18,7 +18,7 @@ struct IllegalRequest {
   std::string method;         ///< for example Jobs.GetJob
   /// The message as protobuf text. $case: a good case; $new: a new request id; $done, $running, $held, $cancelled,
   /// $deleted: names of such jobs, $done_id ... their request ids; $token, $held_token: page tokens of all jobs and
-  /// of the held ones.
+  /// of the held ones; $sweep, $gone_sweep: a held sweep and a deleted one, $sweep_id ...; $sweep_token: a page token.
   std::string request;
   grpc::StatusCode status = grpc::StatusCode::INVALID_ARGUMENT;
   std::string field;          ///< that is named; empty: none is at fault
@@ -28,6 +28,8 @@ struct IllegalRequest {
 };
 /// Every RPC: malformed, too large, unknown names, wrong states, wrong pages, no right.
 std::vector<IllegalRequest> illegal_calls();
+/// The same of Sweeps and Reports.
+std::vector<IllegalRequest> illegal_sweeps();
 
 /// A change that makes a good case a wrong one.
 struct IllegalCase {

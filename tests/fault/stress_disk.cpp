@@ -21,25 +21,6 @@ namespace seaway::stress {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using testing::DiskFullControl;
-
-class SharedControl {
- public:
-  explicit SharedControl(const std::string& file) {
-    const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    void* memory = fd >= 0 && ::ftruncate(fd, sizeof(DiskFullControl)) == 0
-                       ? ::mmap(nullptr, sizeof(DiskFullControl), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0)
-                       : MAP_FAILED;
-    if (fd >= 0) ::close(fd);
-    if (memory == MAP_FAILED) throw std::runtime_error("disk_full: no shared memory");
-    control_ = static_cast<DiskFullControl*>(memory);
-  }
-  ~SharedControl() { ::munmap(control_, sizeof(DiskFullControl)); }
-  DiskFullControl* operator->() const { return control_; }
-
- private:
-  DiskFullControl* control_;
-};
 
 struct Trial {
   bool refused = false;   ///< a write was
@@ -62,7 +43,7 @@ std::string submit(const std::string& address, const v1::CreateJobRequest& reque
 
 Trial attempt(const Settings& s, int first_refused, const std::string& expected) {
   const testing::TempFolder folder;
-  SharedControl disk(folder / "control");
+  testing::SharedDiskControl disk(folder / "control");
   disk->full_from = first_refused;
   const auto arguments = daemon_arguments(s, folder.path());
   testing::Daemon daemon(s.seawayd, folder.path(),

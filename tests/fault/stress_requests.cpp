@@ -142,6 +142,7 @@ class Scene {
     words_["token"] = client_.list(page).next_page_token();
     page.add_states(v1::Job::STATE_HELD);
     words_["held_token"] = client_.list(page).next_page_token();
+    create_sweeps();
     std::string text;
     TextFormat::PrintToString(good_, &text);
     words_["case"] = "case { " + text + " }";
@@ -162,6 +163,8 @@ class Scene {
     const v1::ListJobsResponse all = client_.list({});
     for (const v1::Job& job : all.jobs())
       out += job.name() + std::to_string(job.state()) + std::to_string(job.priority()) + job.note() + std::to_string(job.labels_size()) + "\n";
+    const v1::ListSweepsResponse sweeps = client_.list_sweeps({});
+    for (const v1::Sweep& sweep : sweeps.sweeps()) out += sweep.name() + std::to_string(sweep.job_count()) + "\n";
     return out;
   }
   void end() { client_.kill(words_["running"]); }
@@ -177,6 +180,25 @@ class Scene {
   void create(const std::string& name, const v1::CreateJobRequest& request) {
     words_[name] = client_.create(request).job().name();
     words_[name + "_id"] = request.request_id();
+  }
+  /// Three sweeps of one held job each, of which the first is deleted again.
+  void create_sweeps() {
+    for (const char* name : {"gone_sweep", "sweep", "another_sweep"}) {
+      v1::CreateSweepRequest wanted;
+      wanted.set_request_id(client::new_request_id());
+      wanted.set_start_held(true);
+      wanted.add_cases()->set_name("intact");
+      *wanted.mutable_cases(0)->mutable_case_() = good_;
+      const v1::Sweep made = client_.create_sweep(wanted).sweep();
+      words_[name] = made.name();
+      words_[name + std::string("_id")] = wanted.request_id();
+      if (name != std::string("gone_sweep")) continue;
+      client_.cancel_sweep(made.name());
+      client_.erase(made.points(0).job());
+    }
+    v1::ListSweepsRequest page;
+    page.set_page_size(1);
+    words_["sweep_token"] = client_.list_sweeps(page).next_page_token();
   }
   void wait_for(const std::string& job, v1::Job::State state) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -215,7 +237,7 @@ std::vector<Line> requests(const Settings& s) {
   std::vector<IllegalRequest> table = illegal_calls();
   v1::Case sphere;
   merge(sphere, sphere_case());
-  for (auto part : {submits_of(illegal_sections(), scene.good()), submits_of(illegal_ships(), sphere)})
+  for (auto part : {illegal_sweeps(), submits_of(illegal_sections(), scene.good()), submits_of(illegal_ships(), sphere)})
     table.insert(table.end(), part.begin(), part.end());
   const auto channel = own_channel(daemon.address());
   std::string before = scene.everything();

@@ -120,12 +120,14 @@ TEST_F(WorkerProcess, CrashesAreRetriedFromTheLastCheckpoint) {
 }
 
 TEST_F(WorkerProcess, AfterTheAllowedAttemptsTheJobFailsWithItsReasonAndTheNextOneRuns) {
-  start("  max_faults: 2\n  memory_mb: 300\n  disk_mb: 20\n");
+  // A sanitizer needs far more memory for itself than any limit here.
+  constexpr bool limited = SEAWAY_SLOWDOWN == 1;
+  start(std::string("  max_faults: 2\n  disk_mb: 20\n") + (limited ? "  memory_mb: 300\n" : ""));
   expect_failed(run("fault segv@130"), v1::Job::REASON_WORKER_CRASH, "SIGSEGV", 2);
   expect_failed(run("fault segv@1"), v1::Job::REASON_WORKER_CRASH, "about to follow a bad pointer", 2);
   expect_failed(run("fault fpe@1"), v1::Job::REASON_WORKER_CRASH, "SIGFPE", 2);
   expect_failed(run("fault exit@1"), v1::Job::REASON_WORKER_CRASH, "code 9", 2);
-  expect_failed(run("fault memory@50"), v1::Job::REASON_MEMORY, "memory", 2);
+  if (limited) expect_failed(run("fault memory@50"), v1::Job::REASON_MEMORY, "memory", 2);
   expect_failed(run("fault disk@50"), v1::Job::REASON_DISK_FULL, "workers.disk_mb", 1);
   expect_failed(run("fault throw@50"), v1::Job::REASON_INTERNAL, "thrown on purpose", 1);
   EXPECT_EQ(run("plain").state(), v1::Job::STATE_SUCCEEDED);

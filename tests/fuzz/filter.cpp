@@ -6,6 +6,7 @@
 #include "seaway/v1/job_service.pb.h"
 #include "server/convert/input_error.hpp"
 #include "server/jobs/queue.hpp"
+#include "server/jobs/requests.hpp"
 #include "server/rpc/messages.hpp"
 #include "server/store/sqlite_store.hpp"
 #include "tests/fuzz/fuzz.hpp"

@@ -37,6 +37,18 @@ class InputFile {
   int fd_;
 };
 
+/// Takes a part off the front: its length in two bytes, the small one first, and as many bytes as there are.
+inline std::string take_part(std::string_view& rest) {
+  if (rest.size() < 2) return {};
+  const std::size_t n = static_cast<unsigned char>(rest[0]) + 256u * static_cast<unsigned char>(rest[1]);
+  const std::string part(rest.substr(2, n));
+  rest.remove_prefix(2 + part.size());
+  return part;
+}
+inline std::string make_part(const std::string& bytes) {
+  return std::string{static_cast<char>(bytes.size() % 256), static_cast<char>(bytes.size() / 256)} + bytes;
+}
+
 inline std::string_view view(const std::uint8_t* data, std::size_t size) { return {reinterpret_cast<const char*>(data), size}; }
 
 }  // namespace seaway::fuzz

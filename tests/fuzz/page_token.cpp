@@ -19,5 +19,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const std::int64_t id = 1 + static_cast<std::int64_t>(std::hash<std::string>{}(token) >> 2);
   fuzz::require(rpc::parse_page_token(rpc::make_page_token(id, query), query) == id, "a token is not taken back");
+  try {
+    const std::int64_t sweep = rpc::parse_sweep_token(token);
+    fuzz::require(token.empty() ? sweep == 0 : rpc::make_sweep_token(sweep) == token, "a token of sweeps that was not made here");
+  } catch (const convert::InputError&) {
+  }
   return 0;
 }

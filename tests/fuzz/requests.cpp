@@ -7,6 +7,7 @@
 #include "server/convert/input_error.hpp"
 #include "server/jobs/frames.hpp"
 #include "server/jobs/queue.hpp"
+#include "server/jobs/requests.hpp"
 #include "server/jobs/submission.hpp"
 #include "server/rpc/messages.hpp"
 #include "tests/fuzz/fuzz.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes the first inputs of each target, made by the code that the targets read with: seaway_fuzz_seeds FOLDER
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include "seaway/worker/attempt.pb.h"
 #include "server/jobs/frames.hpp"
 #include "server/rpc/messages.hpp"
+#include "tests/fuzz/fuzz.hpp"
 
 namespace fs = std::filesystem;
 using namespace seaway;
@@ -50,6 +52,17 @@ std::string tetrahedron(bool binary) {
   return binary ? out : text + "endsolid t\n";
 }
 
+/// A decay in the letters of a name, options of both reports, and a case, as sweeps.cpp reads them.
+std::string reports_seed(const v1::Case& message) {
+  v1::DecayOptions decay;
+  for (int i = 0; i < 400; ++i)
+    decay.mutable_channel()->push_back(static_cast<char>(64 + 60 * std::exp(-0.01 * i) * std::cos(0.4 * i)));
+  decay.set_smallest_peak(0.05);
+  v1::RaoOptions rao;
+  rao.set_period_count(2);
+  return fuzz::make_part(decay.SerializeAsString()) + fuzz::make_part(rao.SerializeAsString()) + message.SerializeAsString();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -69,6 +82,16 @@ int main(int argc, char** argv) {
   update.mutable_job()->set_name("jobs/abc");
   update.mutable_update_mask()->add_paths("labels");
   put(to / "requests/update", '\1' + update.SerializeAsString());
+  v1::CreateSweepRequest sweep;
+  sweep.set_request_id(submit.request_id());
+  sweep.add_cases()->set_name("small");
+  *sweep.mutable_cases(0)->mutable_case_() = submit.case_();
+  for (const double period : {1.2, 1.4}) sweep.add_periods_s(period);
+  sweep.add_heights_m(0.03);
+  put(to / "sweeps/sweep", std::string(1, '\0') + sweep.SerializeAsString());
+  sweep.set_validate_only(true);
+  put(to / "sweeps/check", std::string(1, '\0') + sweep.SerializeAsString());
+  put(to / "sweeps/reports", '\1' + reports_seed(submit.case_()));
   worker::Record record;
   record.mutable_sample()->set_sequence(1);
   record.mutable_sample()->add_values(0.5);

@@ -89,6 +89,38 @@ TEST_F(JobLifeService, RetryGoesOnFromTheLastCheckpointToTheSameEnd) {
   EXPECT_EQ(client_->get(again.name()).state(), v1::Job::STATE_SUCCEEDED) << "it does not need the old one";
 }
 
+TEST_F(JobLifeService, RetryFromAStageMakesWhatFollowsAgain) {
+  start();
+  const std::string whole = submit(1);  // three stages of 50 samples
+  ASSERT_TRUE(reaches(whole, store::State::succeeded));
+  v1::RetryJobRequest request;
+  request.set_name(whole);
+  request.set_request_id(request_id(8));
+  request.set_from(v1::RetryJobRequest::FROM_STAGE);
+  request.set_stage(2);
+  *fake_.allowed_steps = 50;  // it does not begin yet
+  const v1::Job again = client_->retry(request);
+  EXPECT_EQ(again.base_job(), whole);
+  EXPECT_EQ(again.latest_sequence(), 50);
+  EXPECT_LE(client_->stages(again.name()).stages_size(), 2) << "of the third there is nothing to say yet";
+  *fake_.allowed_steps = 1'000'000;
+  ASSERT_TRUE(reaches(again.name(), store::State::succeeded));
+  const auto left = service_->store->samples(again.uid(), 0, 1000), right = service_->store->samples(whole.substr(5), 0, 1000);
+  ASSERT_EQ(left.size(), 150u);
+  for (std::size_t i = 0; i < left.size(); ++i) EXPECT_TRUE(store::same_bits(left[i], right[i])) << i;
+  EXPECT_EQ(client_->stages(again.name()).stages_size(), 3);
+  const v1::Job job = client_->get(again.name(), v1::JOB_VIEW_FULL);
+  EXPECT_TRUE(std::any_of(job.events().begin(), job.events().end(), [](const auto& e) { return e.text() == "after sample 50"; }));
+  // Of this one the end of the first stage alone came along; it has made the end of the second itself.
+  request.set_name(again.name());
+  request.set_request_id(request_id(9));
+  request.set_stage(3);
+  EXPECT_EQ(client_->retry(request).latest_sequence(), 100);
+  request.set_request_id(request_id(10));
+  request.set_stage(1);
+  EXPECT_EQ(client_->retry(request).latest_sequence(), 0);
+}
+
 TEST_F(JobLifeService, PriorityLabelsAndNoteTravelWithTheJob) {
   *fake_.allowed_steps = 5;
   start();

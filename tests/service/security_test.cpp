@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Who gets in, and what they may do (F22 of the fault tests, without rotation).
+// Who gets in, and what they may do (F22 of the fault tests).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "core/base/error.hpp"
 #include "server/jobs/workspace.hpp"
@@ -92,6 +94,93 @@ TEST_F(Security, MutualTlsKnowsCallersByTheirCertificate) {
   EXPECT_EQ(status_of([&] { anonymous.list({}); }), StatusCode::UNAVAILABLE);
   JobClient plain("127.0.0.1" + port);
   EXPECT_EQ(status_of([&] { plain.list({}); }), StatusCode::UNAVAILABLE);
+}
+
+// F22: what a server with mutual TLS says to certificates that are not good (any more), and when its own are changed.
+class F22 : public Security {
+ protected:
+  F22() {
+    settings_.access.certificate = folder_ / "server.pem";
+    settings_.access.key = folder_ / "server.key";
+    settings_.access.client_ca = folder_ / "clients.pem";
+    settings_.access.principals = {{"sam", rpc::Role::submitter, "", "sam"}};
+    settings_.access.certificate_refresh_s = 1;
+    install(authority_);
+  }
+  /// Certificates of the server, and whose clients it takes, in files that are renamed into their place.
+  void install(const Pem& authority) {
+    const Pem server = make_certificate("server", &authority);
+    for (const auto& [name, content] : {std::pair{"server.pem", server.certificate}, {"server.key", server.key}, {"clients.pem", authority.certificate}}) {
+      file(std::string(name) + ".new", content);
+      std::filesystem::rename(folder_ / (std::string(name) + ".new"), folder_ / name);
+    }
+  }
+  /// A client of one authority that expects the server to be of another one, or of the same.
+  Credentials client(const std::string& name, const Pem& own, const Pem& authority) {
+    Credentials out;
+    out.ca = file(name + ".ca.pem", authority.certificate);
+    out.certificate = file(name + ".pem", own.certificate);
+    out.key = file(name + ".key", own.key);
+    return out;
+  }
+  const Pem authority_ = make_certificate("test authority");
+  rpc::ServerSettings settings_;
+};
+
+TEST_F(F22, AnExpiredCertificateGetsNoHandshake) {
+  TestService service({}, settings_);
+  JobClient late(service.server->address(), client("late", make_certificate("sam", &authority_, -60), authority_));
+  EXPECT_EQ(status_of([&] { late.list({}); }), StatusCode::UNAVAILABLE);
+  JobClient good(service.server->address(), client("good", make_certificate("sam", &authority_), authority_));
+  EXPECT_EQ(status_of([&] { good.list({}); }), StatusCode::OK);
+}
+
+TEST_F(F22, CertificatesChangeUnderLoadAndNoStreamIsDropped) {
+  FakeOptions fake;
+  fake.allowed_steps = std::make_shared<std::atomic<std::int64_t>>(100);
+  TestService service(fake, settings_);
+  const std::string address = service.server->address();
+  const Pem next_authority = make_certificate("next authority");
+  JobClient before(address, client("before", make_certificate("sam", &authority_), authority_));
+  const std::string name = before.create(create_request(1, small_case(10))).job().name();
+  Received got;
+  grpc::Status end;
+  std::atomic<bool> watching{false};
+  std::jthread watcher([&] {
+    end = before.watch(name, 0, [&](const auto& m) {
+      got.take(m);
+      watching = true;
+      return true;
+    });
+  });
+  while (!watching) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  install(next_authority);
+  // Those who have the new certificates get in, soon; those who bring old ones do not.
+  bool in = false;
+  for (int i = 0; i < 100 && !in; ++i) {
+    JobClient after(address, client("after" + std::to_string(i), make_certificate("sam", &next_authority), next_authority));
+    in = status_of([&] { after.list({}); }) == StatusCode::OK;
+  }
+  EXPECT_TRUE(in);
+  JobClient old(address, client("old", make_certificate("sam", &authority_), authority_));
+  EXPECT_EQ(status_of([&] { old.list({}); }), StatusCode::UNAVAILABLE);
+  *fake.allowed_steps = 1'000'000;
+  watcher.join();
+  EXPECT_TRUE(end.ok()) << end.error_message();
+  EXPECT_EQ(got.last, 3000);
+  EXPECT_FALSE(got.gap);
+}
+
+TEST_F(F22, TokensAreNotFoundByTryingAndEachTryIsRecorded) {
+  rpc::ServerSettings settings;
+  settings.access.principals = {by_token("ada", rpc::Role::admin, "a-token")};
+  TestService service({}, settings);
+  for (int i = 0; i < 200; ++i) {
+    JobClient guess(service.server->address(), caller("a-toke" + std::to_string(i)));
+    ASSERT_EQ(status_of([&] { guess.list({}); }), StatusCode::UNAUTHENTICATED);
+  }
+  service.store->flush();
+  EXPECT_EQ(service.store->audit(1000).size(), 200u);
 }
 
 TEST_F(Security, OtherAddressesNeedTlsAndPrincipals) {

@@ -91,7 +91,7 @@ TEST_F(SweepService, CancelAndErrors) {
   decay.set_job("jobs/nothing");
   EXPECT_EQ(status_of([&] { client_.decay(decay); }), StatusCode::NOT_FOUND);
   decay.set_job(made.points(0).job());
-  EXPECT_EQ(status_of([&] { client_.decay(decay); }), StatusCode::NOT_FOUND) << "no channel yet";
+  EXPECT_EQ(status_of([&] { client_.decay(decay); }), StatusCode::FAILED_PRECONDITION) << "no channel yet";
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ void extend(X509* certificate, X509* issuer, int what, const char* value) {
 
 }  // namespace
 
-Pem make_certificate(const std::string& common_name, const Pem* issuer) {
+Pem make_certificate(const std::string& common_name, const Pem* issuer, long valid_s) {
   const Key key(EVP_EC_gen("P-256"));
   const Certificate certificate(X509_new());
   X509* c = certificate.get();
@@ -46,7 +46,7 @@ Pem make_certificate(const std::string& common_name, const Pem* issuer) {
   static long serial = 1;
   ASN1_INTEGER_set(X509_get_serialNumber(c), serial++);
   X509_gmtime_adj(X509_getm_notBefore(c), -3600);
-  X509_gmtime_adj(X509_getm_notAfter(c), 86400);
+  X509_gmtime_adj(X509_getm_notAfter(c), valid_s);
   X509_set_pubkey(c, key.get());
   X509_NAME* name = X509_get_subject_name(c);
   X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_ASC, reinterpret_cast<const unsigned char*>(common_name.c_str()), -1, -1, 0);

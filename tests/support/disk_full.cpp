@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loaded into the programs under test (LD_PRELOAD): a disk that is full from the N-th write on, until it is not.
+// Loaded into the programs under test (LD_PRELOAD): a disk that is full from the N-th write on, until it is not, or whose
+// syncs fail.
 // Counts writes to files below SEAWAY_DISK_FULL_FOLDER over all processes, in the file that
 // SEAWAY_DISK_FULL_CONTROL names (see disk_full.hpp).
 #include <dlfcn.h>
@@ -31,22 +32,35 @@ DiskFullControl* control() {
   return shared;
 }
 
-/// Counts the write; true if it must fail.
-bool is_refused(int fd) {
+/// What to do with a file; null: leave it alone.
+DiskFullControl* control_of(int fd) {
   static const char* const folder = getenv("SEAWAY_DISK_FULL_FOLDER");
   DiskFullControl* shared = folder != nullptr ? control() : nullptr;
-  if (shared == nullptr) return false;
+  if (shared == nullptr) return nullptr;
   char link[64], path[4096];
   snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
   const ssize_t n = readlink(link, path, sizeof path - 1);
-  if (n <= 0) return false;
+  if (n <= 0) return nullptr;
   path[n] = 0;
-  if (strncmp(path, folder, strlen(folder)) != 0) return false;
+  return strncmp(path, folder, strlen(folder)) == 0 ? shared : nullptr;
+}
+
+/// Counts the write; true if it must fail.
+bool is_refused(int fd) {
+  DiskFullControl* shared = control_of(fd);
+  if (shared == nullptr) return false;
   const auto number = shared->writes.fetch_add(1) + 1;
   const auto from = shared->full_from.load();
   if (from < 0 || number < from) return false;
   shared->refused.fetch_add(1);
   errno = ENOSPC;
+  return true;
+}
+
+bool sync_fails(int fd) {
+  const DiskFullControl* shared = control_of(fd);
+  if (shared == nullptr || shared->syncs_fail.load() == 0) return false;
+  errno = EIO;
   return true;
 }
 
@@ -69,6 +83,14 @@ ssize_t pwrite(int fd, const void* data, size_t size, off_t at) {
 ssize_t pwrite64(int fd, const void* data, size_t size, off64_t at) {
   static const auto real = next(&pwrite64, "pwrite64");
   return is_refused(fd) ? -1 : real(fd, data, size, at);
+}
+int fsync(int fd) {
+  static const auto real = next(&fsync, "fsync");
+  return sync_fails(fd) ? -1 : real(fd);
+}
+int fdatasync(int fd) {
+  static const auto real = next(&fdatasync, "fdatasync");
+  return sync_fails(fd) ? -1 : real(fd);
 }
 ssize_t writev(int fd, const iovec* parts, int count) {
   static const auto real = next(&writev, "writev");

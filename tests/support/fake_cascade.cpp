@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "core/sim/checkpoint_name.hpp"
 #include "tests/support/fake_fault.hpp"
 
 namespace seaway::testing {
@@ -156,12 +157,12 @@ class FakeRun {
            Clock::now() - last_checkpoint_ > std::chrono::duration<double>(options_.checkpoint_interval);
   }
 
-  void checkpoint() {
+  void checkpoint(const std::string& stage_end = "") {
     last_checkpoint_ = Clock::now();
-    const std::string path = options_.folder + "/" + std::to_string(flow_.sequence) + ".checkpoint";
+    const std::string path = options_.folder + "/" + std::to_string(flow_.sequence) + stage_end + ".checkpoint";
     save(path, options_.case_digest, flow_);
     observer_.on_checkpoint(path, flow_.sequence, std::chrono::duration<double>(Clock::now() - last_checkpoint_).count());
-    if (!before_.empty() && before_ != path) fs::remove(before_);
+    if (!before_.empty() && before_ != path && !sim::stage_ended_in(before_)) fs::remove(before_);
     before_ = std::exchange(newest_, path);
   }
 
@@ -193,7 +194,7 @@ class FakeRun {
     ++flow_.stage;
     flow_.step_in_stage = 0;
     flow_.start = flow_.time;
-    checkpoint();
+    checkpoint("e" + std::to_string(flow_.stage - 1));
   }
 
   void write_section() {

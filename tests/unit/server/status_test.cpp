@@ -60,7 +60,14 @@ TEST(Messages, PageTokensBelongToTheirFilter) {
   EXPECT_EQ(parse_page_token("", running), 0);
   EXPECT_THROW(parse_page_token(token, {}), convert::InputError);
   EXPECT_THROW(parse_page_token(token, labelled), convert::InputError);
-  for (const char* bad : {"x", "-", "1", "1-", "-1-0", "zz-0", "1-0x"}) EXPECT_THROW(parse_page_token(bad, {}), convert::InputError) << bad;
+  EXPECT_EQ(parse_sweep_token(make_sweep_token(42)), 42);
+  EXPECT_EQ(parse_sweep_token(""), 0);
+  EXPECT_THROW(parse_sweep_token(make_page_token(42, {})), convert::InputError) << "of the jobs";
+  EXPECT_THROW(parse_page_token(make_sweep_token(42), {}), convert::InputError);
+  for (const char* bad : {"x", "-", "1", "1-", "-1-0", "zz-0", "1-0x", "s", "s-", "s1-0"}) {
+    EXPECT_THROW(parse_page_token(bad, {}), convert::InputError) << bad;
+    EXPECT_THROW(parse_sweep_token(bad), convert::InputError) << bad;
+  }
 }
 
 TEST(Messages, JobNamesAreStrict) {

@@ -96,8 +96,8 @@ TEST_F(SweepTest, IsThereWholeOrNotAtAll) {
   EXPECT_TRUE(store_->list_sweeps(0, 10).empty());
   auto wrong = request(2);
   wrong.add_periods_s(-1);
-  EXPECT_THAT(why_refused(wrong), HasSubstr("wave.regular.period_s: -1 is not allowed"));
-  EXPECT_THAT(why_refused(wrong), HasSubstr("T -1 s"));
+  EXPECT_THAT(why_refused(wrong), HasSubstr("periods_s[2]: -1 is not allowed"));
+  EXPECT_THAT(why_refused(wrong), HasSubstr("(T -1 s)"));
   EXPECT_EQ(n_jobs(), 0u);
 }
 

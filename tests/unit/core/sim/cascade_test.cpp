@@ -1,5 +1,6 @@
 // Whole runs of tiny cases: stages, release, checkpoints, interruption, threads, failures.
 #include "core/sim/cascade.hpp"
+#include "core/sim/checkpoint_name.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -145,7 +146,7 @@ TEST(Cascade, DamagedNewestCheckpointGivesWayToTheOneBefore) {
   Keeper first(20), second;
   EXPECT_EQ(run(two_stages(), folder.path(), first, 1, every_step).reason, StopReason::cancelled);
   const auto files = checkpoint_files(folder.path());
-  ASSERT_EQ(files.size(), 2u) << "the last two are kept";
+  ASSERT_EQ(files.size(), 3u) << "the last two and the end of the first stage are kept";
   damage(files.back());
   EXPECT_EQ(run(two_stages(), folder.path(), second, 1, every_step).reason, StopReason::finished);
   EXPECT_EQ(second.count("checkpoint_rejected"), 1);
@@ -161,7 +162,7 @@ TEST(Cascade, NewCheckpointsSurviveBesideRejectedOnes) {
   EXPECT_EQ(run(two_stages(), folder.path(), first, 1, every_step).reason, StopReason::cancelled);
   for (const std::string& file : checkpoint_files(folder.path())) damage(file);
   EXPECT_EQ(run(two_stages(), folder.path(), second, 1, every_step).reason, StopReason::cancelled);
-  EXPECT_EQ(second.count("checkpoint_rejected"), 2);
+  EXPECT_EQ(second.count("checkpoint_rejected"), 3);
   EXPECT_EQ(second.count("resumed"), 0);
   EXPECT_EQ(second.samples.front().sequence, 1) << "from the start";
   ASSERT_FALSE(second.checkpoints.empty());
@@ -170,6 +171,29 @@ TEST(Cascade, NewCheckpointsSurviveBesideRejectedOnes) {
   EXPECT_EQ(third.count("resumed"), 1);
   EXPECT_EQ(third.samples.front().sequence, 6);
   expect_history(joined(second, third), unbroken().samples);
+}
+
+TEST(Cascade, EndsOfStagesAreKeptToRepeatFromThem) {
+  const TempFolder folder;
+  Keeper first, second;
+  EXPECT_EQ(run(two_stages(), folder.path(), first, 1, every_step).reason, StopReason::finished);
+  std::vector<int> ends;
+  for (const std::string& file : checkpoint_files(folder.path())) {
+    if (const auto stage = stage_ended_in(file)) ends.push_back(*stage);
+    if (stage_ended_in(file) != 0) std::filesystem::remove(file);
+  }
+  EXPECT_EQ(ends, (std::vector{0, 1}));
+  EXPECT_EQ(run(two_stages(), folder.path(), second).reason, StopReason::finished);
+  ASSERT_FALSE(second.samples.empty());
+  EXPECT_EQ(second.samples.front().sequence, 16) << "the second stage begins again";
+  for (const Sample& s : second.samples) EXPECT_EQ(s.values, first.samples[static_cast<std::size_t>(s.sequence - 1)].values) << s.sequence;
+}
+
+TEST(Cascade, NamesOfCheckpointsSayWhichStageTheyEnd) {
+  EXPECT_EQ(stage_ended_in("/data/jobs/abc/checkpoint_0000000123e2.ck"), 2);
+  EXPECT_EQ(stage_ended_in("12e11.checkpoint"), 11);
+  for (const char* inside : {"checkpoint_0000000123a.ck", "/e1/checkpoint_12a.ck", "checkpoint_12e.ck", "e1.ck", "checkpoint_12e1x.ck", "", "12e-1.ck"})
+    EXPECT_EQ(stage_ended_in(inside), std::nullopt) << inside;
 }
 
 TEST(Cascade, CheckpointOfAnotherCaseIsNotResumed) {
@@ -268,7 +292,9 @@ TEST(Cascade, HullInWavesIsReleasedByItsLoadsOrAfterTheLongestWait) {
   ASSERT_EQ(k.count("released"), 1);
   const std::size_t roll = k.channel("roll");
   for (const Sample& s : k.samples) {
-    if (s.time < 1.6 + 1e-9) EXPECT_EQ(s.values[roll], 0) << s.time;
+    if (s.time < 1.6 + 1e-9) {
+      EXPECT_EQ(s.values[roll], 0) << s.time;
+    }
   }
   EXPECT_NE(k.samples.back().values[roll], 0);
 }
