@@ -2,9 +2,13 @@
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <sstream>
+
+#include "tests/validation/report/kept_cases.hpp"
 
 namespace seaway::validation {
 namespace {
@@ -12,11 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Tells one version of an example from another.
-std::string digest_of(const std::string& example) {
+std::string digest_of_example(const std::string& example) {
   std::ifstream file(std::string(SEAWAY_EXAMPLES) + "/" + example);
   std::stringstream text;
   text << file.rdbuf();
-  return std::to_string(std::hash<std::string>{}(text.str()));
+  return digest_of(text.str());
 }
 
 }  // namespace
@@ -38,7 +42,13 @@ std::string KeptRuns::file(const std::string& name) const { return (fs::path(pat
 RunRecord KeptRuns::finished(const std::string& name, const std::string& example, const sim::Case& c, int threads,
                              const std::function<bool(double, int)>& enough) const {
   RunRecord record;
-  const std::string digest = name + " " + digest_of(example);
+  const std::string digest = name + " " + digest_of_example(example);
+  const std::string of_project = std::string(SEAWAY_VALIDATION) + "/kept_runs/" + name + ".json";
+  if (!keep_ && load(of_project, record) && record.digest == digest) {
+    fmt::print(stderr, "{}: a run kept with the project, of version {}, {:.0f} CPU s; --results DIR runs it anew\n", name,
+               record.version, record.total_cpu_s);
+    return record;
+  }
   if (load(file(name + ".json"), record) && record.digest == digest) return record;
   record = run_and_record(c, file(name), threads, enough, digest);
   save(record, file(name + ".json"));

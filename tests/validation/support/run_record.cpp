@@ -1,11 +1,13 @@
 #include "tests/validation/support/run_record.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/version.hpp"
 #include "core/sim/cascade.hpp"
 
 namespace seaway::validation {
@@ -19,6 +21,7 @@ class Keeper : public sim::RunObserver {
       : stop_(stop), enough_(enough), file_(std::move(file)), cpu_before_(process_cpu_seconds()) {
     if (!load(file_, record_) || record_.digest != digest) record_ = {};
     record_.digest = digest;
+    record_.version = code_version();
   }
 
   void on_channels(const std::vector<sim::Channel>& channels) override {
@@ -75,6 +78,12 @@ class Keeper : public sim::RunObserver {
   RunRecord record_;
 };
 
+/// To 1e-8: what a file of a long run needs.
+std::vector<double> rounded(std::vector<double> values) {
+  for (double& v : values) v = std::round(v * 1e8) / 1e8;
+  return values;
+}
+
 }  // namespace
 
 double RunRecord::cpu_until(double time) const {
@@ -123,8 +132,9 @@ void save(const RunRecord& r, const std::string& path) {
                       {"cpu_s", s.cpu_s},
                       {"mapping_cpu_s", s.mapping_cpu_s},
                       {"converged", s.converged}});
-  const nlohmann::json all{{"digest", r.digest}, {"t_s", r.t},         {"roll_rad", r.roll},
-                           {"heave_m", r.heave}, {"cpu_s", r.cpu_s},
+  const nlohmann::json all{{"digest", r.digest},           {"version", r.version},
+                           {"t_s", rounded(r.t)},          {"roll_rad", rounded(r.roll)},
+                           {"heave_m", rounded(r.heave)},  {"cpu_s", rounded(r.cpu_s)},
                            {"stages", stages},   {"total_cpu_s", r.total_cpu_s}};
   // Written aside: a file that is there is whole.
   std::ofstream(path + ".part") << all.dump() << "\n";
@@ -136,6 +146,7 @@ bool load(const std::string& path, RunRecord& r) {
   if (!file) return false;
   const nlohmann::json all = nlohmann::json::parse(file);
   r.digest = all.value("digest", "");
+  r.version = all.value("version", "");
   all.at("t_s").get_to(r.t);
   all.at("roll_rad").get_to(r.roll);
   all.at("heave_m").get_to(r.heave);

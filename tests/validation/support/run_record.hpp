@@ -19,7 +19,7 @@ struct StageRecord {
 };
 
 struct RunRecord {
-  std::string digest;                  ///< of the case it belongs to
+  std::string digest, version;         ///< of the case it belongs to, and of the code
   std::vector<double> t, roll, heave;  ///< [s], [rad], [m]
   std::vector<double> cpu_s;           ///< of all threads, since the start of the run
   std::vector<StageRecord> stages;
