@@ -3,7 +3,7 @@
 // A mesh block asks for the solid part of each of its cells and of each of the control volumes around its faces. These
 // tile space, so that a triangle need not be clipped again for every box above which it lies: it is split by the
 // lattice's planes, each piece adds its integral to the box that holds it and its projected area to a running sum for all boxes
-// below. Same integrals as in core/hull/surface_patch.hpp, exact.
+// below. Same integrals as in core/hull/triangle_columns.hpp, exact.
 #pragma once
 
 #include <vector>

@@ -17,12 +17,6 @@ SurfacePatch::SurfacePatch(const std::vector<std::shared_ptr<const SurfaceTree>>
       table_(std::move(table)),
       porous_(porous) {}
 
-std::vector<BoxMoments> TriangleColumns::moments(const BoxLattice& lattice) const {
-  LatticeSum sum(lattice, {axes_[0], axes_[1], axes_[2]});
-  for (const Triangle& t : triangles_) sum.add(t.x, t.weight);
-  return sum.moments(always_);
-}
-
 LatticeParts::LatticeParts(const TriangleColumns& columns, const BoxLattice& lattice)
     : lattice_(lattice), entry_(lattice.size()) {
   const double full = lattice.edge.prod(), least = 1e-12 * full;  // rounding of the sums: 1e-15

@@ -1,4 +1,4 @@
-#include "core/hull/surface_patch.hpp"
+#include "core/hull/triangle_columns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -293,6 +293,12 @@ TriangleColumns::Moments TriangleColumns::moments(const Cuboid& box) const {
   return m;
 }
 
+std::vector<TriangleColumns::Moments> TriangleColumns::moments(const BoxLattice& lattice) const {
+  LatticeSum sum(lattice, {axes_[0], axes_[1], axes_[2]});
+  for (const Triangle& t : triangles_) sum.add(t.x, t.weight);
+  return sum.moments(always_);
+}
+
 double TriangleColumns::volume_below(const Cuboid& box, const Vec3& normal, double d) const {
   const Frame f = frame_of(box);
   double n[3] = {normal[axes_[0]], normal[axes_[1]], normal[axes_[2]]};
@@ -365,8 +371,7 @@ double TriangleColumns::face_area(const Cuboid& box, int axis, bool high) const 
   // higher v (w) to where it comes back.
   const double sign = along == 1 ? 1 : -1, half_u = f.half[0], reach = f.half[other];
   double area = 0;
-  const auto height = [half_u](double p0, double p1, double c) {  // mean of max(u - c, 0)
-    (void)half_u;
+  const auto height = [](double p0, double p1, double c) {  // mean of max(u - c, 0)
     const double a = p0 - c, b = p1 - c;
     if (a <= 0 && b <= 0) return 0.0;
     if (a >= 0 && b >= 0) return 0.5 * (a + b);
