@@ -33,6 +33,9 @@ class Projection {
   void prepare(const FlowState<Dim>& state, const HullMask<Dim>* mask,
                const std::vector<char>* free_cells = nullptr);
 
+  /// Rows of the hull in the half-step geometry of the last prepare; empty without a mask.
+  const linear::RigidRows<Dim>& rigid_rows() const { return operator_.rigid(); }
+
   /// After prepare: projects state.u with the hull's twist (both changed), sets state.p and state.w. `slip` (optional)
   /// is part of w.
   /// Boundary values of u on fixed sides are kept. Parents of u, w, p restricted on return.

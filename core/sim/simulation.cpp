@@ -158,22 +158,26 @@ void Simulation<Dim>::kick(double dt, StepReport& report) {
   if (zones_) zones_->relax_velocity(state_, time_ + 0.5 * next_dt_, dt);
   projection_.apply_gravity(state_, dt);
   clock_.charge("forcing");
+  projection_.prepare(state_, mask_.get());
+  clock_.charge("pressure");
   const motion::DofMatrix<Dim> inverse = inverse_mass();
+  linear::RigidRows<Dim> rows_now;
+  motion::DofVector<Dim> carried = motion::DofVector<Dim>::Zero();
   if (mask_) {
-    const auto rows_now = mask_->rigid_rows(mask_->now());
-    const auto rows_half = mask_->rigid_rows(mask_->half());
+    rows_now = mask_->rigid_rows(mask_->now());
+    carried = mask_->carried_weight(window_vof_, model_->fluids);
+    const auto& rows_half = projection_.rigid_rows();
     motion::DofVector<Dim> force = motion::gyroscopic_load<Dim>(model_->body, body_.pose, body_.twist);
     force[Dim - 1] -= model_->body.mass * model_->fluids.gravity;
     // The pressure acts on the hull where it is now, while the solve has it half a step ahead.
     force += rows_now.gather(state_.p.data()) - rows_half.gather(state_.p.data());
-    force += mask_->carried_weight(window_vof_, model_->fluids);
+    force += carried;
     if (walls_) force += friction_;
     body_.twist += dt * (inverse * force);
     // The first pressure is not known beforehand.
     if (step_ > 0) slip_flux_.find(*mask_, state_, body_.twist + dt * (inverse * rows_half.gather(state_.p.data())), dt);
   }
   clock_.charge("hull");
-  projection_.prepare(state_, mask_.get());
   report.pressure = projection_.project(state_, mask_.get(), body_.twist, inverse, dt,
                                         {c.numerics.pressure_tolerance, c.numerics.max_pressure_iterations},
                                         &slip_flux_);
@@ -183,9 +187,7 @@ void Simulation<Dim>::kick(double dt, StepReport& report) {
     report.failure = "the pressure is not finite";
     return;
   }
-  if (mask_)
-    load_ = mask_->rigid_rows(mask_->now()).gather(state_.p.data()) +
-            mask_->carried_weight(window_vof_, model_->fluids);
+  if (mask_) load_ = rows_now.gather(state_.p.data()) + carried;
   extend_pressure();
   extend_velocity();
   clock_.charge("hull");

@@ -150,6 +150,7 @@ class Simulation {
   double rms_water_velocity() const;
 
  private:
+  void restrict_state();
   void extend_vof_and_settle(double dt, bool restart);
   void extend_velocity();
   void extend_pressure();

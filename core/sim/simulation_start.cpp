@@ -146,6 +146,19 @@ void Simulation<Dim>::initialise() {
   if (report.failed) fail(ErrorCode::diverged, "the first pressure solve failed: {}", report.failure);
 }
 
+/// Parents of a state that has values in leaves.
+template <int Dim>
+void Simulation<Dim>::restrict_state() {
+  field::restrict_cells<double, Dim>(*forest_, state_.vof);
+  field::restrict_cells<double, Dim>(*forest_, state_.p);
+  if (turbulence_) {
+    field::restrict_cells<double, Dim>(*forest_, state_.tke);
+    field::restrict_cells<double, Dim>(*forest_, state_.epsilon);
+  }
+  field::restrict_faces<double, Dim>(*forest_, state_.u);
+  field::restrict_faces<double, Dim>(*forest_, state_.w);
+}
+
 template <int Dim>
 std::pair<double, double> Simulation<Dim>::adopt(flow::FlowState<Dim>&& state, const BodyState<Dim>& body,
                                                  double time, std::int64_t step, double dt,
@@ -159,14 +172,7 @@ std::pair<double, double> Simulation<Dim>::adopt(flow::FlowState<Dim>&& state, c
   sub_step_ = step;
   dt_ = next_dt_ = std::min(dt, dt_);
   if (mask_) mask_->update(body_.pose, body_.half_pose);
-  field::restrict_cells<double, Dim>(*forest_, state_.vof);
-  field::restrict_cells<double, Dim>(*forest_, state_.p);
-  if (turbulence_) {
-    field::restrict_cells<double, Dim>(*forest_, state_.tke);
-    field::restrict_cells<double, Dim>(*forest_, state_.epsilon);
-  }
-  field::restrict_faces<double, Dim>(*forest_, state_.u);
-  field::restrict_faces<double, Dim>(*forest_, state_.w);
+  restrict_state();
   extend_vof_and_settle(dt_, true);
   book_.reservoirs() = reservoirs;
   const double before = projection_.divergence(state_, dt_);
@@ -199,14 +205,7 @@ void Simulation<Dim>::restore(flow::FlowState<Dim>&& state, const BodyState<Dim>
   dt_ = dt;
   next_dt_ = next_dt;
   exchanged_ = exchanged;
-  field::restrict_cells<double, Dim>(*forest_, state_.vof);
-  field::restrict_cells<double, Dim>(*forest_, state_.p);
-  if (turbulence_) {
-    field::restrict_cells<double, Dim>(*forest_, state_.tke);
-    field::restrict_cells<double, Dim>(*forest_, state_.epsilon);
-  }
-  field::restrict_faces<double, Dim>(*forest_, state_.u);
-  field::restrict_faces<double, Dim>(*forest_, state_.w);
+  restrict_state();
   if (mask_) {
     mask_->update(body_.pose, body_.half_pose);
     mask_->window().load_cells(state_.vof, window_vof_);
@@ -222,6 +221,7 @@ void Simulation<Dim>::restore(flow::FlowState<Dim>&& state, const BodyState<Dim>
   template std::pair<double, double> Simulation<D>::adopt(flow::FlowState<D>&&, const BodyState<D>&, double,          \
                                                           std::int64_t, double, const std::map<int, double>&,         \
                                                           const std::vector<char>*);                                 \
+  template void Simulation<D>::restrict_state();                                                                     \
   template void Simulation<D>::polish();                                                                             \
   template void Simulation<D>::restore(flow::FlowState<D>&&, const BodyState<D>&, double, std::int64_t, double,       \
                                        double, double, const std::map<int, double>&);
