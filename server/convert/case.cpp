@@ -80,6 +80,13 @@ void read_numerics(const v1::Numerics& m, sim::Numerics& n, Checker& check) {
   if (m.has_half_step_geometry()) n.half_step_geometry = m.half_step_geometry();
 }
 
+/// The name of a channel's `what`, none twice.
+void read_name(const std::string& path, const std::string& name, const char* what, std::set<std::string>& names, Checker& check) {
+  check.name(path, name);
+  if (!names.insert(name).second)
+    check.problem(path, fmt::format("'{}' is used twice", name), fmt::format("give each {} its own name", what));
+}
+
 void read_outputs(const v1::Outputs& m, sim::Outputs& out, Checker& check) {
   if (m.has_sample_interval_s())
     out.sample_interval = check.number("outputs.sample_interval_s", m.sample_interval_s(), not_negative);
@@ -88,10 +95,7 @@ void read_outputs(const v1::Outputs& m, sim::Outputs& out, Checker& check) {
   check.entries("outputs.gauges", m.gauges_size(), 0, 64);
   std::set<std::string> names;
   for (int i = 0; i < m.gauges_size(); ++i) {
-    const std::string path = fmt::format("outputs.gauges[{}].name", i);
-    check.name(path, m.gauges(i).name());
-    if (!names.insert(m.gauges(i).name()).second)
-      check.problem(path, fmt::format("'{}' is used twice", m.gauges(i).name()), "give each gauge its own name");
+    read_name(fmt::format("outputs.gauges[{}].name", i), m.gauges(i).name(), "gauge", names, check);
     out.gauges.push_back({m.gauges(i).name(), m.gauges(i).x_m(), m.gauges(i).y_m()});
   }
 }
@@ -102,9 +106,7 @@ void read_probes(const v1::Outputs& m, bool has_hull, int dim, sim::Outputs& out
   for (int i = 0; i < m.probes_size(); ++i) {
     const v1::PressureProbe& from = m.probes(i);
     const std::string path = fmt::format("outputs.probes[{}]", i);
-    check.name(path + ".name", from.name());
-    if (!names.insert(from.name()).second)
-      check.problem(path + ".name", fmt::format("'{}' is used twice", from.name()), "give each probe its own name");
+    read_name(path + ".name", from.name(), "probe", names, check);
     if (dim == 2 && from.x_m() != 0) check.problem(path + ".x_m", "x does not exist in 2-D", "remove it");
     sim::Probe probe{from.name(), has_hull, {from.x_m(), from.y_m(), from.z_m()}};
     if (from.frame() == v1::PressureProbe::FRAME_HULL && !has_hull)
