@@ -6,6 +6,7 @@
 
 #include "tests/benchmark/bench.hpp"
 #include "tests/validation/support/ship_run.hpp"
+#include "tests/validation/support/tank_run.hpp"
 
 namespace seaway::bench {
 namespace {
@@ -40,7 +41,7 @@ std::shared_ptr<const sim::Model<3>> ship_bench_model(std::int64_t cells, bool t
 
 Measurement measure_ship_step(const std::shared_ptr<const sim::Model<3>>& model, int steps, int threads) {
   const double before = restart_peak();
-  const auto run = validation::start_ship(model, threads);
+  const auto run = validation::start<3>(model, threads);
   for (int i = 0; i < 3; ++i) validation::step(*run);
   Measurement m;
   m.name = model->turbulence.model != flow::TurbulenceSpec::Model::none ? "step_3d_rans" : "step_3d";

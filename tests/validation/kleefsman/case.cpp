@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/error.hpp"
 #include "core/field/restrict.hpp"
 #include "core/sim/simulation.hpp"
 #include "tests/validation/cases.hpp"
 #include "tests/validation/support/signal.hpp"
+#include "tests/validation/support/tank_run.hpp"
 
 namespace seaway::validation {
 namespace {
@@ -74,17 +74,15 @@ struct Flood {
 
 Flood break_dam(const Mesh& mesh, double duration, int threads) {
   const sim::Case c = tank_with_box(mesh);
-  const auto model = std::make_shared<sim::Model<3>>(sim::make_model<3>(c));
-  Tank3 run(model, sim::make_forest<3>(*model, c.stages[0].mesh, threads), quiet_context(threads));
-  run.initialise();
+  const auto started = start<3>(std::make_shared<const sim::Model<3>>(sim::make_model<3>(c)), threads);
+  Tank3& run = *started;
   fill_column(run);
   const double water = run.water().visible;
   Flood out;
   out.cells = run.forest().n_cells();
   out.pressures.resize(c.outputs.probes.size());
   while (run.time() < duration) {
-    const auto step = run.step();
-    if (step.failed) fail(ErrorCode::diverged, "t = {:.4f} s: {}", run.time(), step.failure);
+    step(run);
     for (std::size_t i = 0; i < out.pressures.size(); ++i) out.pressures[i].add(run.time(), run.pressure(c.outputs.probes[i]));
     const sim::WaterBalance balance = run.water();
     out.water_error = std::max(out.water_error, std::abs((balance.visible + balance.reservoir) / water - 1));

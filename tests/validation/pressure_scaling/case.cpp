@@ -16,18 +16,13 @@ struct Iterations {
   std::int64_t cells = 0;
 };
 
-/// The example with its hull free from the start, after `settle` steps.
-Iterations iterations(const sim::MeshRule& mesh, int settle, int steps, int threads) {
-  sim::Case c = example_case();
-  c.body.release = sim::Body::Release::at_start;
-  c.body.angles = {5 * degree, 0, 0};  // it moves from the first step on
-  c.stages.resize(1);
-  c.stages.front().mesh = mesh;
-  const auto run = start(c, threads);
+/// Of `steps` steps, after `settle` others.
+template <class Run>
+Iterations measure(Run& run, int settle, int steps) {
   Iterations out;
-  out.cells = run->forest().n_cells();
+  out.cells = run.forest().n_cells();
   for (int i = 0; i < settle + steps; ++i) {
-    const int n = step(*run).pressure.iterations;
+    const int n = step(run).pressure.iterations;
     if (i < settle) continue;
     out.mean += static_cast<double>(n) / steps;
     out.most = std::max(out.most, n);
@@ -35,17 +30,18 @@ Iterations iterations(const sim::MeshRule& mesh, int settle, int steps, int thre
   return out;
 }
 
+/// The example with its hull free from the start.
+Iterations iterations(const sim::MeshRule& mesh, int settle, int steps, int threads) {
+  sim::Case c = example_case();
+  c.body.release = sim::Body::Release::at_start;
+  c.body.angles = {5 * degree, 0, 0};  // it moves from the first step on
+  c.stages.resize(1);
+  c.stages.front().mesh = mesh;
+  return measure(*start(c, threads), settle, steps);
+}
+
 Iterations ship_iterations(std::int64_t cells, int settle, int steps, int threads) {
-  const auto run = start_ship(ship_model(ship_in_waves(cells)), threads);
-  Iterations out;
-  out.cells = run->forest().n_cells();
-  for (int i = 0; i < settle + steps; ++i) {
-    const int n = step(*run).pressure.iterations;
-    if (i < settle) continue;
-    out.mean += static_cast<double>(n) / steps;
-    out.most = std::max(out.most, n);
-  }
-  return out;
+  return measure(*start<3>(ship_model(ship_in_waves(cells)), threads), settle, steps);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // [ship_held] A held ship in calm water makes no currents and feels its hydrostatics; see README.md beside this file.
 #include <cmath>
 
-#include "core/base/error.hpp"
 #include "core/hull/ship_hydrostatics.hpp"
 #include "core/hull/surface_hull.hpp"
 #include "core/sim/simulation.hpp"
 #include "tests/validation/cases.hpp"
+#include "tests/validation/support/tank_run.hpp"
 
 namespace seaway::validation {
 namespace {
@@ -49,17 +49,12 @@ sim::Case held_ship() {
 void run_ship_held(const Context& context, Results& results) {
   const sim::Case c = held_ship();
   const auto model = std::make_shared<sim::Model<3>>(sim::make_model<3>(c));
-  sim::Simulation<3> run(model, sim::make_forest<3>(*model, c.stages[0].mesh, context.threads),
-                         quiet_context(context.threads));
-  run.initialise();
+  const auto started = start<3>(model, context.threads);
+  sim::Simulation<3>& run = *started;
   double largest = 0;
   for (int i = 0; i < 40; ++i) {
-    const auto step = run.step();
-    if (step.failed) fail(ErrorCode::diverged, "{}", step.failure);
-    for (const int b : run.forest().leaves())
-      for (int axis = 0; axis < 3; ++axis)
-        for (int f = 0; f < mesh::BlockShape<3>::faces; ++f)
-          largest = std::max(largest, std::abs(run.state().w.block(axis, b)[f]));
+    step(run);
+    largest = std::max(largest, max_velocity(run));
   }
   // The polyhedron's own hydrostatics, air's buoyancy included.
   const auto& ship = dynamic_cast<const hull::SurfaceHull&>(*model->hull).ship();

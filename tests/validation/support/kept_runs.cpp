@@ -2,9 +2,7 @@
 
 #include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fstream>
 #include <sstream>
 
@@ -43,12 +41,6 @@ RunRecord KeptRuns::finished(const std::string& name, const std::string& example
                              const std::function<bool(double, int)>& enough) const {
   RunRecord record;
   const std::string digest = name + " " + digest_of_example(example);
-  const std::string of_project = std::string(SEAWAY_VALIDATION) + "/kept_runs/" + name + ".json";
-  if (!keep_ && load(of_project, record) && record.digest == digest) {
-    fmt::print(stderr, "{}: a run kept with the project, of version {}, {:.0f} CPU s; --results DIR runs it anew\n", name,
-               record.version, record.total_cpu_s);
-    return record;
-  }
   if (load(file(name + ".json"), record) && record.digest == digest) return record;
   record = run_and_record(c, file(name), threads, enough, digest);
   save(record, file(name + ".json"));

@@ -1,5 +1,4 @@
-// Long runs of examples, kept in a folder: what is finished is read, what was cut goes on. The longest are kept with the
-// project (tests/validation/kept_runs), with the digest of their example and the version of the code that made them.
+// Long runs of examples, kept in a folder: what is finished is read, what was cut goes on.
 #pragma once
 
 #include <functional>
@@ -20,8 +19,7 @@ class KeptRuns {
   std::string file(const std::string& name) const;
 
   /// The record of run `name` of an example (a file name of client/examples, or a variant of it in `c`): read if it
-  /// is there, or without --results kept with the project; else run until it ends or `enough(time, stage)` says so.
-  /// Another text of the example is another run.
+  /// is there, else run until it ends or `enough(time, stage)` says so. Another text of the example is another run.
   RunRecord finished(const std::string& name, const std::string& example, const sim::Case& c, int threads,
                      const std::function<bool(double, int)>& enough) const;
 

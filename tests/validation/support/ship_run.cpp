@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/error.hpp"
 #include "tests/validation/support/tank_run.hpp"
 
 namespace seaway::validation {
@@ -62,19 +61,6 @@ sim::Case ship_in_waves(std::int64_t cells) {
 
 std::shared_ptr<const sim::Model<3>> ship_model(const sim::Case& c) {
   return std::make_shared<const sim::Model<3>>(sim::make_model<3>(c));
-}
-
-std::unique_ptr<Ship> start_ship(const std::shared_ptr<const sim::Model<3>>& model, int threads) {
-  auto forest = sim::make_forest<3>(*model, model->description.stages.front().mesh, threads);
-  auto run = std::make_unique<Ship>(model, std::move(forest), quiet_context(threads));
-  run->initialise();
-  return run;
-}
-
-sim::StepReport step(Ship& run) {
-  sim::StepReport report = run.step();
-  if (report.failed) fail(ErrorCode::diverged, "t = {:.4f} s: {}", run.time(), report.failure);
-  return report;
 }
 
 }  // namespace seaway::validation

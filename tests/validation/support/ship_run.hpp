@@ -8,8 +8,6 @@
 
 namespace seaway::validation {
 
-using Ship = sim::Simulation<3>;
-
 /// DTMB 5415 with its two flooded compartments, released at a heel of 5 degrees in beam waves of 0.061 m and 1.4 s, zones
 /// on both sides. The mesh is of the kind of the examples of size `desk` and has about `cells` cells (60 k to 10 M; met to
 /// a few per cent): the hull's cells by halvings of the base cells, between those tank and cells are scaled together.
@@ -17,11 +15,5 @@ sim::Case ship_in_waves(std::int64_t cells);
 
 /// What is made once from a case: the hull's surfaces, its table of distances.
 std::shared_ptr<const sim::Model<3>> ship_model(const sim::Case& c);
-
-/// The first stage at its start.
-std::unique_ptr<Ship> start_ship(const std::shared_ptr<const sim::Model<3>>& model, int threads);
-
-/// One step; throws Error(diverged) with the reason when it fails.
-sim::StepReport step(Ship& run);
 
 }  // namespace seaway::validation

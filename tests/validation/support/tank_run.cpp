@@ -12,28 +12,41 @@
 
 namespace seaway::validation {
 
-std::unique_ptr<Section> start(const sim::Case& c, int threads) {
-  auto model = std::make_shared<sim::Model<2>>(sim::make_model<2>(c));
-  auto forest = sim::make_forest<2>(*model, c.stages.front().mesh, threads);
-  auto run = std::make_unique<Section>(model, std::move(forest), quiet_context(threads));
+template <int Dim>
+std::unique_ptr<sim::Simulation<Dim>> start(const std::shared_ptr<const sim::Model<Dim>>& model, int threads) {
+  auto forest = sim::make_forest<Dim>(*model, model->description.stages.front().mesh, threads);
+  auto run = std::make_unique<sim::Simulation<Dim>>(model, std::move(forest), quiet_context(threads));
   run->initialise();
   return run;
 }
 
-sim::StepReport step(Section& run) {
+std::unique_ptr<Section> start(const sim::Case& c, int threads) {
+  return start<2>(std::make_shared<const sim::Model<2>>(sim::make_model<2>(c)), threads);
+}
+
+template <int Dim>
+sim::StepReport step(sim::Simulation<Dim>& run) {
   sim::StepReport report = run.step();
   if (report.failed) fail(ErrorCode::diverged, "t = {:.4f} s: {}", run.time(), report.failure);
   return report;
 }
 
-double max_velocity(const Section& run) {
+template <int Dim>
+double max_velocity(const sim::Simulation<Dim>& run) {
   double largest = 0;
-  for (int axis = 0; axis < 2; ++axis)
+  for (int axis = 0; axis < Dim; ++axis)
     for (const int b : run.forest().leaves())
-      for (int i = 0; i < mesh::BlockShape<2>::faces; ++i)
+      for (int i = 0; i < mesh::BlockShape<Dim>::faces; ++i)
         largest = std::max(largest, std::abs(run.state().w.block(axis, b)[i]));
   return largest;
 }
+
+#define SEAWAY_INSTANTIATE(D)                                                                                     \
+  template std::unique_ptr<sim::Simulation<D>> start(const std::shared_ptr<const sim::Model<D>>&, int);            \
+  template sim::StepReport step(sim::Simulation<D>&);                                                             \
+  template double max_velocity(const sim::Simulation<D>&);
+SEAWAY_INSTANTIATE(2)
+SEAWAY_INSTANTIATE(3)
 
 motion::DofVector<2> displacement(const Section& run) {
   return motion::displacement<2>(run.body().pose, run.model().rest_cog);

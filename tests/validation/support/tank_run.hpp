@@ -12,11 +12,17 @@ using Section = sim::Simulation<2>;
 /// The first stage of a case at its start (exact wave or calm water, hull at its start pose).
 std::unique_ptr<Section> start(const sim::Case& c, int threads);
 
+/// A model's first stage at its start.
+template <int Dim>
+std::unique_ptr<sim::Simulation<Dim>> start(const std::shared_ptr<const sim::Model<Dim>>& model, int threads);
+
 /// One step; throws Error(diverged) with the reason when it fails.
-sim::StepReport step(Section& run);
+template <int Dim>
+sim::StepReport step(sim::Simulation<Dim>& run);
 
 /// Largest face velocity of water, air and hull [m/s].
-double max_velocity(const Section& run);
+template <int Dim>
+double max_velocity(const sim::Simulation<Dim>& run);
 
 /// Sway, heave [m] and roll [rad] from the position afloat.
 motion::DofVector<2> displacement(const Section& run);
