@@ -28,13 +28,25 @@ void copy_coarse_face(const mesh::CoarseFace& face, FaceField<T, Dim>& f) {
   });
 }
 
-}  // namespace
+/// f(parent) level by level from the finest, those of one level on threads; before_level(level) first.
+template <int Dim, class Before, class F>
+void for_parents(const Forest<Dim>& forest, const std::vector<int>& parents, Before&& before_level, F&& f) {
+  for (std::size_t begin = 0; begin < parents.size();) {
+    const int level = forest.block(parents[begin]).level;
+    std::size_t end = begin;
+    while (end < parents.size() && forest.block(parents[end]).level == level) ++end;
+    before_level(level);
+    mesh::parallel_for(static_cast<int>(end - begin), forest.threads(),
+                       [&](int i) { f(parents[begin + static_cast<std::size_t>(i)]); });
+    begin = end;
+  }
+}
 
 template <class T, int Dim>
-void restrict_cells(const Forest<Dim>& forest, CellField<T, Dim>& f) {
+void restrict_cells_of(const Forest<Dim>& forest, const std::vector<int>& parents, CellField<T, Dim>& f) {
   constexpr int half = BlockShape<Dim>::n / 2;
   const IVec<Dim> strides = cell_strides<Dim>();
-  for (const int b : forest.interface_parents()) {
+  for_parents(forest, parents, [](int) {}, [&](int b) {
     T* coarse = f.block(b);
     for (int c = 0; c < BlockShape<Dim>::children; ++c) {
       const T* fine = f.block(forest.block(b).child[static_cast<std::size_t>(c)]);
@@ -51,21 +63,21 @@ void restrict_cells(const Forest<Dim>& forest, CellField<T, Dim>& f) {
         coarse[offset<Dim>(to, strides)] = sum * (T(1) / BlockShape<Dim>::children);
       });
     }
-  }
+  });
 }
 
 template <class T, int Dim>
-void restrict_faces(const Forest<Dim>& forest, FaceField<T, Dim>& f, int axis) {
+void restrict_faces_of(const Forest<Dim>& forest, const std::vector<int>& parents,
+                       const std::vector<mesh::CoarseFace>& coarse_faces, FaceField<T, Dim>& f, int axis) {
   constexpr int half = BlockShape<Dim>::n / 2;
   const IVec<Dim> strides = face_strides<Dim>(axis);
   // Level by level from the finest: a leaf takes its faces at jumps before its parent takes means of them.
-  auto next = forest.coarse_faces().rbegin();
+  auto next = coarse_faces.rbegin();
   const auto copy_faces_finer_than = [&](int level) {
-    for (; next != forest.coarse_faces().rend() && forest.block(next->leaf).level > level; ++next)
+    for (; next != coarse_faces.rend() && forest.block(next->leaf).level > level; ++next)
       if (next->axis == axis) copy_coarse_face(*next, f);
   };
-  for (const int b : forest.interface_parents()) {
-    copy_faces_finer_than(forest.block(b).level);
+  for_parents(forest, parents, copy_faces_finer_than, [&](int b) {
     T* coarse = f.block(axis, b);
     for (int c = 0; c < BlockShape<Dim>::children; ++c) {
       const T* fine = f.block(axis, forest.block(b).child[static_cast<std::size_t>(c)]);
@@ -85,13 +97,37 @@ void restrict_faces(const Forest<Dim>& forest, FaceField<T, Dim>& f, int axis) {
         coarse[offset<Dim>(to, strides)] = sum * (T(2) / BlockShape<Dim>::children);
       });
     }
-  }
+  });
   copy_faces_finer_than(-1);
 }
 
-#define SEAWAY_INSTANTIATE(T, D)                                      \
-  template void restrict_cells<T, D>(const Forest<D>&, CellField<T, D>&); \
-  template void restrict_faces<T, D>(const Forest<D>&, FaceField<T, D>&, int);
+}  // namespace
+
+template <class T, int Dim>
+void restrict_cells(const Forest<Dim>& forest, CellField<T, Dim>& f) {
+  restrict_cells_of(forest, forest.interface_parents(), f);
+}
+
+template <class T, int Dim>
+void restrict_cells(const Forest<Dim>& forest, const mesh::ForestPart<Dim>& part, CellField<T, Dim>& f) {
+  restrict_cells_of(forest, part.parents, f);
+}
+
+template <class T, int Dim>
+void restrict_faces(const Forest<Dim>& forest, FaceField<T, Dim>& f, int axis) {
+  restrict_faces_of(forest, forest.interface_parents(), forest.coarse_faces(), f, axis);
+}
+
+template <class T, int Dim>
+void restrict_faces(const Forest<Dim>& forest, const mesh::ForestPart<Dim>& part, FaceField<T, Dim>& f, int axis) {
+  restrict_faces_of(forest, part.parents, part.coarse_faces, f, axis);
+}
+
+#define SEAWAY_INSTANTIATE(T, D)                                                                              \
+  template void restrict_cells<T, D>(const Forest<D>&, CellField<T, D>&);                                     \
+  template void restrict_cells<T, D>(const Forest<D>&, const mesh::ForestPart<D>&, CellField<T, D>&);         \
+  template void restrict_faces<T, D>(const Forest<D>&, FaceField<T, D>&, int);                                \
+  template void restrict_faces<T, D>(const Forest<D>&, const mesh::ForestPart<D>&, FaceField<T, D>&, int);
 SEAWAY_INSTANTIATE(double, 2)
 SEAWAY_INSTANTIATE(double, 3)
 SEAWAY_INSTANTIATE(float, 2)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/field/field.hpp"
+#include "core/mesh/forest_part.hpp"
 
 namespace seaway::field {
 
@@ -10,9 +11,15 @@ namespace seaway::field {
 template <class T, int Dim>
 void restrict_cells(const Forest<Dim>& forest, CellField<T, Dim>& f);
 
+/// Those above the leaves of a part alone.
+template <class T, int Dim>
+void restrict_cells(const Forest<Dim>& forest, const mesh::ForestPart<Dim>& part, CellField<T, Dim>& f);
+
 /// The same for faces of one axis, then the coarse leaves' faces at level jumps.
 template <class T, int Dim>
 void restrict_faces(const Forest<Dim>& forest, FaceField<T, Dim>& f, int axis);
+template <class T, int Dim>
+void restrict_faces(const Forest<Dim>& forest, const mesh::ForestPart<Dim>& part, FaceField<T, Dim>& f, int axis);
 template <class T, int Dim>
 void restrict_faces(const Forest<Dim>& forest, FaceField<T, Dim>& f) {
   for (int axis = 0; axis < Dim; ++axis) restrict_faces(forest, f, axis);

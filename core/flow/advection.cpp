@@ -24,8 +24,10 @@ Advection<Dim>::Advection(const Forest<Dim>& forest, const FluidProperties& flui
       vof_new_(forest), vof_start_(forest), u_start_(forest), u_new_(forest) {}
 
 template <int Dim>
-double Advection<Dim>::courant_number(const FaceField<double, Dim>& w, double dt) const {
-  return forest_.max_over_leaves(0.0, [&](int b) {
+std::vector<double> Advection<Dim>::courant_numbers(const FaceField<double, Dim>& w, double dt) const {
+  std::vector<double> out(static_cast<std::size_t>(forest_.n_leaves()));
+  mesh::parallel_for(forest_.n_leaves(), forest_.threads(), [&](int leaf) {
+    const int b = forest_.leaves()[static_cast<std::size_t>(leaf)];
     const auto& block = forest_.block(b);
     double largest = 0, bad = 0;
     for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
@@ -43,26 +45,44 @@ double Advection<Dim>::courant_number(const FaceField<double, Dim>& w, double dt
         bad += sum[i];
       }
     });
-    return std::isfinite(bad) ? largest : std::nan("");
+    out[static_cast<std::size_t>(leaf)] = std::isfinite(bad) ? largest : std::nan("");
   });
+  return out;
 }
 
 template <int Dim>
-void Advection<Dim>::water_fluxes(const FlowState<Dim>& state, int axis, double dt) {
+double Advection<Dim>::courant_number(const FaceField<double, Dim>& w, double dt) const {
+  return largest_courant(courant_numbers(w, dt));
+}
+
+template <int Dim>
+void Advection<Dim>::water_fluxes(const Scope& scope, const FlowState<Dim>& state, int axis, double dt) {
   constexpr int n = BlockShape<Dim>::n;
   const IVec<Dim> fs = face_strides<Dim>(axis), cs = cell_strides<Dim>();
-  forest_.for_each_leaf([&](int b) {
+  mesh::for_each(scope.leaves, forest_.threads(), [&](int b) {
     const auto& block = forest_.block(b);
     const double* w = state.w.block(axis, b);
     double* g = swept_.block(axis, b);
-    const BlockPhase around = planes_.surroundings(b);
-    if (around != BlockPhase::mixed) {
-      const double factor = around == BlockPhase::water ? dt : 0.0;
+    if (is_pure(scope, b)) {
+      const double factor = planes_.surroundings(b) == BlockPhase::water ? dt : 0.0;
       for (int i = 0; i < BlockShape<Dim>::faces; ++i) g[i] = factor * w[i];
       return;
     }
     const double h = block.h[axis];
-    for_box<Dim>(filled<Dim>(0), faces_upper<Dim>(axis), [&](const IVec<Dim>& i) {
+    IVec<Dim> lower = filled<Dim>(0), upper = faces_upper<Dim>(axis);
+    if (scope.part)
+      for (int side = 0; side < 2; ++side) {
+        if (!scope.part->is_cut(b, axis, side)) continue;
+        IVec<Dim> first = filled<Dim>(0), last = faces_upper<Dim>(axis);
+        (side == 0 ? last[axis] : first[axis]) = side == 0 ? 1 : n;
+        (side == 0 ? lower[axis] : upper[axis]) = side == 0 ? 1 : n;
+        const double* whole = recorded_.block(axis, b);
+        for_box<Dim>(first, last, [&](const IVec<Dim>& i) {
+          const int o = offset<Dim>(i, fs);
+          g[o] = scope.share * whole[o];
+        });
+      }
+    for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
       const int o = offset<Dim>(i, fs);
       const double c = w[o] * dt / h;
       IVec<Dim> donor = i;
@@ -111,17 +131,18 @@ void Advection<Dim>::water_fluxes(const FlowState<Dim>& state, int axis, double 
       }
     });
   });
-  field::restrict_faces<double, Dim>(forest_, swept_, axis);
+  if (scope.part) field::restrict_faces<double, Dim>(forest_, *scope.part, swept_, axis);
+  else field::restrict_faces<double, Dim>(forest_, swept_, axis);
 }
 
 template <int Dim>
-void Advection<Dim>::update_vof(const FlowState<Dim>& state, int axis, double dt) {
+void Advection<Dim>::update_vof(const Scope& scope, const FlowState<Dim>& state, int axis, double dt) {
   constexpr int n = BlockShape<Dim>::n;
   const IVec<Dim> fs = face_strides<Dim>(axis), cs = cell_strides<Dim>();
-  forest_.for_each_leaf([&](int b) {
+  mesh::for_each(scope.leaves, forest_.threads(), [&](int b) {
     const double* old = state.vof.block(b);
     double* out = vof_new_.block(b);
-    if (planes_.surroundings(b) != BlockPhase::mixed) {
+    if (is_pure(scope, b)) {
       std::copy(old, old + BlockShape<Dim>::cells, out);
       return;
     }
@@ -140,19 +161,18 @@ void Advection<Dim>::update_vof(const FlowState<Dim>& state, int axis, double dt
       }
     });
   });
-  field::restrict_cells<double, Dim>(forest_, vof_new_);
 }
 
 template <int Dim>
-void Advection<Dim>::update_momentum(const FlowState<Dim>& state, int axis, double dt) {
+void Advection<Dim>::update_momentum(const Scope& scope, const FlowState<Dim>& state, int axis, double dt) {
   using Shape = ScratchShape<Dim>;
   const int S = Shape::stride(axis);
   const double jump = fluids_.rho_water - fluids_.rho_air;
-  forest_.for_each_leaf([&](int b) {
+  mesh::for_each(scope.leaves, forest_.threads(), [&](int b) {
     const auto& block = forest_.block(b);
     const double inverse_h = 1.0 / block.h[axis];
     const double cw = dt * inverse_h;
-    const bool pure = planes_.surroundings(b) != BlockPhase::mixed;
+    const bool pure = is_pure(scope, b);
     Scratch<double, Dim> w, old_rho, new_rho, mass_flux;
     Scratch<double, Dim> flux, momentum, velocity;
     const bool turbulent = state.turbulent();
@@ -240,13 +260,10 @@ void Advection<Dim>::update_momentum(const FlowState<Dim>& state, int axis, doub
       }
     }
   });
-  field::restrict_faces<double, Dim>(forest_, u_new_);
-  for (auto& f : carried_new_)
-    if (state.turbulent()) field::restrict_cells<double, Dim>(forest_, f);
 }
 
 template <int Dim>
-void Advection<Dim>::advance(FlowState<Dim>& state, double dt, std::int64_t step) {
+void Advection<Dim>::start_from(const FlowState<Dim>& state) {
   vof_start_ = state.vof;
   u_start_ = state.u;
   if (state.turbulent()) {
@@ -254,19 +271,39 @@ void Advection<Dim>::advance(FlowState<Dim>& state, double dt, std::int64_t step
     carried_new_[0].data().resize(state.tke.data().size());
     carried_new_[1].data().resize(state.tke.data().size());
   }
-  for (int sweep = 0; sweep < Dim; ++sweep) {
-    const int axis = static_cast<int>((sweep + step) % Dim);
-    planes_.reconstruct(state.vof);
-    water_fluxes(state, axis, dt);
+}
+
+template <int Dim>
+void Advection<Dim>::sweep(const std::vector<int>& leaves, const FlowState<Dim>& state, int axis, double dt) {
+  const Scope scope{leaves};
+  planes_.reconstruct(state.vof);
+  water_fluxes(scope, state, axis, dt);
+  update_vof(scope, state, axis, dt);
+  field::restrict_cells<double, Dim>(forest_, vof_new_);
+  update_momentum(scope, state, axis, dt);
+  field::restrict_faces<double, Dim>(forest_, u_new_);
+  for (auto& f : carried_new_)
+    if (state.turbulent()) field::restrict_cells<double, Dim>(forest_, f);
+}
+
+/// What the last sweep made becomes the state.
+template <int Dim>
+void Advection<Dim>::take_new(FlowState<Dim>& state) {
+  std::swap(state.vof, vof_new_);
+  std::swap(state.u, u_new_);
+  if (!state.turbulent()) return;
+  std::swap(state.tke, carried_new_[0]);
+  std::swap(state.epsilon, carried_new_[1]);
+}
+
+template <int Dim>
+void Advection<Dim>::advance(FlowState<Dim>& state, double dt, std::int64_t step) {
+  start_from(state);
+  for (int k = 0; k < Dim; ++k) {
+    const int axis = static_cast<int>((k + step) % Dim);
+    sweep(forest_.leaves(), state, axis, dt);
     if (visitor_) visitor_(axis, swept_);
-    update_vof(state, axis, dt);
-    update_momentum(state, axis, dt);
-    std::swap(state.vof, vof_new_);
-    std::swap(state.u, u_new_);
-    if (state.turbulent()) {
-      std::swap(state.tke, carried_new_[0]);
-      std::swap(state.epsilon, carried_new_[1]);
-    }
+    take_new(state);
   }
 }
 

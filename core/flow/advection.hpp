@@ -12,6 +12,7 @@
 
 #include "core/flow/interface_planes.hpp"
 #include "core/flow/scalar_sweep.hpp"
+#include "core/flow/sub_steps.hpp"
 
 namespace seaway::flow {
 
@@ -20,24 +21,57 @@ class Advection {
  public:
   Advection(const Forest<Dim>& forest, const FluidProperties& fluids, const Boundaries<Dim>& boundaries);
 
-  /// Largest sum_d |w_d| dt / h_d over all cells.
+  /// Largest sum_d |w_d| dt / h_d over the cells of each leaf, in the order of Forest::leaves; NaN where w is not finite.
+  std::vector<double> courant_numbers(const FaceField<double, Dim>& w, double dt) const;
+  /// Over all cells.
   double courant_number(const FaceField<double, Dim>& w, double dt) const;
 
   /// One sub-step of vof and u with frozen w. `step` alternates the order of the sweeps.
   /// Before: parents of vof, u, w restricted; courant_number <= 1/2. After: the same parents restricted.
   void advance(FlowState<Dim>& state, double dt, std::int64_t step);
+  /// A volume fraction beyond [0, 1] that was cut: volume is what the mesh has less since [m^Dim].
+  struct Clip {
+    std::int64_t cell = 0;  ///< block * cells + cell
+    Vec<Dim> centre;
+    double volume = 0;
+  };
+  /// One sub-step of `plan` (plan.whole of them make the step): the leaves of plan.region take plan.inner shorter ones.
+  /// What passes the region's sides is the water that the rest of the mesh saw pass, in equal shares; the difference in
+  /// time may push volume fractions there out of [0, 1], which is cut and returned. Momentum is conserved to first order in dt.
+  std::vector<Clip> advance(FlowState<Dim>& state, double dt, std::int64_t step, const SubStepPlan<Dim>& plan);
 
-  /// Called after each sweep with the axis: water swept through its faces in this sweep [m] (volume per
-  /// face area, positive along the axis), coarse faces included. For books of water volume.
+  /// Called after each sweep, or sub-step, with the axis: water swept through its faces in it [m] (volume per face
+  /// area, positive along the axis), coarse faces included. For books of water volume.
   using FluxVisitor = std::function<void(int axis, const FaceField<double, Dim>& swept)>;
   void set_flux_visitor(FluxVisitor visitor) { visitor_ = std::move(visitor); }
 
   InterfacePlanes<Dim>& planes() { return planes_; }
 
  private:
-  void water_fluxes(const FlowState<Dim>& state, int axis, double dt);
-  void update_vof(const FlowState<Dim>& state, int axis, double dt);
-  void update_momentum(const FlowState<Dim>& state, int axis, double dt);
+  /// The leaves that a sweep advances: all of them, or (with `part`) those of a part, through whose sides `share` of
+  /// recorded_ is swept.
+  struct Scope {
+    const std::vector<int>& leaves;
+    const mesh::ForestPart<Dim>* part = nullptr;
+    double share = 1;
+  };
+  /// Wholly water or air, like all around it: nothing to reconstruct.
+  bool is_pure(const Scope& scope, int b) const {
+    return planes_.surroundings(b) != BlockPhase::mixed && !(scope.part && scope.part->cut_sides[static_cast<std::size_t>(b)]);
+  }
+  void water_fluxes(const Scope& scope, const FlowState<Dim>& state, int axis, double dt);
+  void update_vof(const Scope& scope, const FlowState<Dim>& state, int axis, double dt);
+  void update_momentum(const Scope& scope, const FlowState<Dim>& state, int axis, double dt);
+  void start_from(const FlowState<Dim>& state);
+  void sweep(const std::vector<int>& leaves, const FlowState<Dim>& state, int axis, double dt);
+  void take_new(FlowState<Dim>& state);
+  // Local sub-steps (local_advection.cpp).
+  void advance_rest(FlowState<Dim>& state, double dt, std::int64_t step, const SubStepPlan<Dim>& plan);
+  void sweep_region(FlowState<Dim>& state, int axis, double dt, const SubStepPlan<Dim>& plan);
+  void approach_sides(FlowState<Dim>& state, int steps_left, const mesh::ForestPart<Dim>& region) const;
+  void record(int axis, const mesh::ForestPart<Dim>& region);
+  std::vector<Clip> clip(FlowState<Dim>& state, const std::vector<int>& leaves) const;
+  void hold(FlowState<Dim>& state);
 
   const Forest<Dim>& forest_;
   FluidProperties fluids_;
@@ -48,6 +82,10 @@ class Advection {
   FaceField<double, Dim> u_start_, u_new_;
   std::array<CellField<double, Dim>, 2> carried_start_, carried_new_;  ///< tke, epsilon; empty without them
   FluxVisitor visitor_;
+  FaceField<double, Dim> recorded_;  ///< water swept in the sub-step of the whole mesh; empty until one is divided
+  CellField<double, Dim> held_vof_;  ///< at its end, likewise
+  FaceField<double, Dim> held_u_;
+  std::array<CellField<double, Dim>, 2> held_carried_;
 };
 
 extern template class Advection<2>;

@@ -75,7 +75,7 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
   level_.assign(window.size(), 0);
   IVec<Dim> inner_upper = window.n();
   for (int& u : inner_upper) u -= 1;
-  window.for_cells([&](const IVec<Dim>& i) {
+  window.for_cells_on_threads([&](const IVec<Dim>& i) {
     const auto at = static_cast<std::size_t>(window.at(i));
     if (theta[at] < 0.5) return;
     layer_[at] = 0;
@@ -99,9 +99,12 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
   };
   front_.clear();  // cells that see water, but only above or below them
   for (int layer = 1; layer <= extension_layers; ++layer) {
-    list_.clear();
-    next_.clear();
-    for_box<Dim>(filled<Dim>(1), inner_upper, [&](const IVec<Dim>& i) {
+    struct Filled {
+      int at = 0;
+      double value = 0;
+      bool level = false;
+    };
+    const auto filled_cells = window.template collect<Filled>(filled<Dim>(1), inner_upper, [&](const IVec<Dim>& i, std::vector<Filled>& out) {
       const int at = window.at(i);
       if (layer_[static_cast<std::size_t>(at)] != -1 || phi[static_cast<std::size_t>(at)] < -(layer + 2) * window.h().maxCoeff())
         return;
@@ -136,15 +139,13 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
         if (mean_weight > 0) break;
       }
       if (mean_weight == 0) return;
-      list_.push_back(at);
-      const double value = level_weight > 0 ? levels / level_weight : means / mean_weight;
-      next_.push_back(value);
-      if (level_weight > 0) level_[static_cast<std::size_t>(at)] = 1;
-      else if (layer == 1 && value > 0.5) front_.push_back(at);
+      out.push_back({at, level_weight > 0 ? levels / level_weight : means / mean_weight, level_weight > 0});
     });
-    for (std::size_t k = 0; k < list_.size(); ++k) {
-      vof[static_cast<std::size_t>(list_[k])] = next_[k];
-      layer_[static_cast<std::size_t>(list_[k])] = static_cast<signed char>(layer);
+    for (const auto& [at, value, level] : filled_cells) {
+      vof[static_cast<std::size_t>(at)] = value;
+      layer_[static_cast<std::size_t>(at)] = static_cast<signed char>(layer);
+      if (level) level_[static_cast<std::size_t>(at)] = 1;
+      else if (layer == 1 && value > 0.5) front_.push_back(at);
     }
   }
   level_off(mask.window(), vof);
@@ -162,11 +163,12 @@ void HullExtension<Dim>::level_off(const HullWindow<Dim>& window, std::vector<do
   // Deeper layers were filled from the same cells.
   IVec<Dim> upper = window.n();
   for (int& u : upper) --u;
-  for_box<Dim>(filled<Dim>(1), upper, [&](const IVec<Dim>& i) {
+  const auto deeper = window.template collect<int>(filled<Dim>(1), upper, [&](const IVec<Dim>& i, std::vector<int>& out) {
     const int at = window.at(i);
     const auto cell = static_cast<std::size_t>(at);
-    if (layer_[cell] > 1 && !level_[cell] && vof[cell] > 0.5) open.push_back(at);
+    if (layer_[cell] > 1 && !level_[cell] && vof[cell] > 0.5) out.push_back(at);
   });
+  open.insert(open.end(), deeper.begin(), deeper.end());
   std::vector<double> before;
   before.reserve(open.size());
   for (const int at : open) {
@@ -204,7 +206,7 @@ void HullExtension<Dim>::level_off(const HullWindow<Dim>& window, std::vector<do
 }
 
 /// Layer by layer from the entries with layer_ 0 inwards: means of the neighbours that an entry with layer_ -1 sees, and
-/// that are not `behind(at, other)` a wall.
+/// that are not `behind(at, other)` a wall. At most two fields.
 template <int Dim>
 template <class Behind>
 void HullExtension<Dim>::fill_layers(const HullWindow<Dim>& window, const std::vector<double>& phi, const Behind& behind,
@@ -212,16 +214,18 @@ void HullExtension<Dim>::fill_layers(const HullWindow<Dim>& window, const std::v
   const auto around = neighbours<Dim>(window);
   IVec<Dim> upper = window.n();
   for (int& u : upper) --u;
-  std::vector<double> sums(fields.size());
+  constexpr std::size_t most_fields = 2;
+  struct Filled {
+    std::size_t at = 0;
+    std::array<double, most_fields> value{};
+  };
   for (int layer = 1; layer <= extension_layers; ++layer) {
-    list_.clear();
-    next_.clear();
-    for_box<Dim>(filled<Dim>(1), upper, [&](const IVec<Dim>& i) {
+    const auto filled_entries = window.template collect<Filled>(filled<Dim>(1), upper, [&](const IVec<Dim>& i, std::vector<Filled>& out) {
       const int at = window.at(i);
       if (layer_[static_cast<std::size_t>(at)] != -1 || phi[static_cast<std::size_t>(at)] < -(layer + 2) * window.h().maxCoeff())
         return;
       const Vec<Dim> gradient = distance_gradient<Dim>(window, phi, at);
-      std::fill(sums.begin(), sums.end(), 0.0);
+      Filled entry{static_cast<std::size_t>(at), {}};
       double weight = 0;
       for (const bool only_visible : {true, false}) {
         for (const auto& n : around) {
@@ -229,19 +233,18 @@ void HullExtension<Dim>::fill_layers(const HullWindow<Dim>& window, const std::v
           if (layer_[from] < 0 || layer_[from] >= layer || behind(at, static_cast<int>(from)) ||
               (only_visible && !visible<Dim>(window, n, gradient)))
             continue;
-          for (std::size_t f = 0; f < fields.size(); ++f) sums[f] += (*fields[f])[from];
+          for (std::size_t f = 0; f < fields.size(); ++f) entry.value[f] += (*fields[f])[from];
           weight += 1;
         }
         if (weight > 0) break;
       }
       if (weight == 0) return;
-      list_.push_back(at);
-      for (const double sum : sums) next_.push_back(sum / weight);
+      for (double& value : entry.value) value /= weight;
+      out.push_back(entry);
     });
-    for (std::size_t k = 0; k < list_.size(); ++k) {
-      const auto at = static_cast<std::size_t>(list_[k]);
-      for (std::size_t f = 0; f < fields.size(); ++f) (*fields[f])[at] = next_[fields.size() * k + f];
-      layer_[at] = static_cast<signed char>(layer);
+    for (const Filled& entry : filled_entries) {
+      for (std::size_t f = 0; f < fields.size(); ++f) (*fields[f])[entry.at] = entry.value[f];
+      layer_[entry.at] = static_cast<signed char>(layer);
     }
   }
 }
@@ -278,16 +281,13 @@ void HullExtension<Dim>::extend_velocity(const HullMask<Dim>& mask, int axis, co
   IVec<Dim> inner_upper = window.n();
   for (int& v : inner_upper) v -= 1;
   layer_.assign(window.size(), -1);
-  list_.clear();
-  next_.clear();
-  IVec<Dim> faces_upper = window.n();
-  ++faces_upper[axis];
+  const IVec<Dim> faces_upper = window.n_faces(axis);
   // Thin walls: a face belongs to the space of its cells; in a wall between two spaces it moves with the hull.
   const auto& spaces = mask.half().space;
   constexpr signed char in_wall = -2;
   face_space_.assign(spaces.empty() ? 0 : window.size(), passage);
   if (!spaces.empty()) {
-    for_box<Dim>(filled<Dim>(0), window.n(), [&](const IVec<Dim>& i) {
+    window.for_cells_on_threads([&](const IVec<Dim>& i) {
       const auto at = static_cast<std::size_t>(window.at(i));
       const signed char high = spaces[at];
       const signed char low = i[axis] > 0 ? spaces[at - static_cast<std::size_t>(window.stride(axis))] : high;
@@ -299,12 +299,13 @@ void HullExtension<Dim>::extend_velocity(const HullMask<Dim>& mask, int axis, co
     return !face_space_.empty() &&
            apart(face_space_[static_cast<std::size_t>(at)], face_space_[static_cast<std::size_t>(other)]);
   };
-  for_box<Dim>(filled<Dim>(0), faces_upper, [&](const IVec<Dim>& i) {
+  window.for_box_on_threads(filled<Dim>(0), faces_upper, [&](const IVec<Dim>& i) {
     const int at = window.at(i);
     if (aperture[static_cast<std::size_t>(at)] > 0) layer_[static_cast<std::size_t>(at)] = 0;
   });
   // Nearly closed faces: limited to the spread of the open ones around them.
-  for_box<Dim>(filled<Dim>(1), inner_upper, [&](const IVec<Dim>& i) {
+  using Limited = std::pair<std::size_t, double>;
+  const auto limited = window.template collect<Limited>(filled<Dim>(1), inner_upper, [&](const IVec<Dim>& i, std::vector<Limited>& out) {
     const int at = window.at(i);
     const double a = aperture[static_cast<std::size_t>(at)];
     if (!(a > 0 && a < 0.2)) return;
@@ -319,12 +320,11 @@ void HullExtension<Dim>::extend_velocity(const HullMask<Dim>& mask, int axis, co
     }
     if (count == 0) return;
     const double mean = sum / count;
-    list_.push_back(at);
-    next_.push_back(mean + std::clamp(u[static_cast<std::size_t>(at)] - mean, -largest, largest));
+    out.emplace_back(at, mean + std::clamp(u[static_cast<std::size_t>(at)] - mean, -largest, largest));
   });
-  for (std::size_t k = 0; k < list_.size(); ++k) u[static_cast<std::size_t>(list_[k])] = next_[k];
+  for (const auto& [at, value] : limited) u[at] = value;
   fill_layers(window, phi, behind, std::array{&u});
-  for_box<Dim>(filled<Dim>(0), faces_upper, [&](const IVec<Dim>& i) {
+  window.for_box_on_threads(filled<Dim>(0), faces_upper, [&](const IVec<Dim>& i) {
     const auto at = static_cast<std::size_t>(window.at(i));
     if (layer_[at] >= 0) return;
     u[at] = motion::velocity_at<Dim>(twist, mask.half().pose, window.face_centre(i, axis))[axis];

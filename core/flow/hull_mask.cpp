@@ -99,7 +99,6 @@ void HullMask<Dim>::find_apertures(HullGeometry<Dim>& g, bool with_solid_faces) 
         double phi = g.phi[at];
         if (last && i[axis] == tile.at[axis] + nb) phi = g.phi[at - static_cast<std::size_t>(window_.stride(axis))];
         else if (i[axis] > 0 && !(first && i[axis] == tile.at[axis])) phi = 0.5 * (phi + g.phi[at - static_cast<std::size_t>(window_.stride(axis))]);
-        g.arm[a][at] = x - g.pose.cog;
         if (phi < -far) {
           g.aperture[a][at] = 0;
           if (with_solid_faces) solid_face_[a][at] = 1;
@@ -114,7 +113,7 @@ void HullMask<Dim>::find_apertures(HullGeometry<Dim>& g, bool with_solid_faces) 
         // What the pressure coefficients can hold: w must see the very apertures of the solve.
         open = static_cast<double>(static_cast<float>(open));
         g.aperture[a][at] = open;
-        if (open > 0 && solid.volume > 0) {
+        if (open > 0 && open < 1) {
           const Vec<Dim> moment = volume * box.centre - solid.moment;
           g.arm[a][at] = rotate * (moment / (volume - solid.volume) - body_.cog);
         }
@@ -243,8 +242,9 @@ Vec<Dim> HullMask<Dim>::wall_area(const IVec<Dim>& cell) const {
 
 template <int Dim>
 linear::RigidRows<Dim> HullMask<Dim>::rigid_rows(const HullGeometry<Dim>& g) const {
-  linear::RigidRows<Dim> rows;
-  window_.for_cells([&](const IVec<Dim>& i) {
+  using Row = Eigen::Matrix<double, linear::n_dof<Dim>, 1>;
+  using Entry = std::pair<std::int64_t, Row>;
+  const auto entries = window_.template collect<Entry>([&](const IVec<Dim>& i, std::vector<Entry>& out) {
     const auto at = static_cast<std::size_t>(window_.at(i));
     bool cut = false;
     bool any_open = false;
@@ -255,14 +255,16 @@ linear::RigidRows<Dim> HullMask<Dim>::rigid_rows(const HullGeometry<Dim>& g) con
       any_open = any_open || lo > 0 || hi > 0;
     }
     if (!cut || !any_open || window_.tile_of(i) < 0) return;
-    Eigen::Matrix<double, linear::n_dof<Dim>, 1> j = Eigen::Matrix<double, linear::n_dof<Dim>, 1>::Zero();
+    Row j = Row::Zero();
     for (int axis = 0; axis < Dim; ++axis) {
       const auto ax = static_cast<std::size_t>(axis);
       for (int side = 0; side < 2; ++side) {
         const std::size_t f = at + static_cast<std::size_t>(side * window_.stride(axis));
         const double flux = (side == 0 ? 1.0 : -1.0) * g.aperture[ax][f] * window_.face_area(axis);
         if (flux == 0) continue;
-        const Vec<Dim>& r = g.arm[ax][f];
+        IVec<Dim> face = i;
+        face[axis] += side;
+        const Vec<Dim> r = g.aperture[ax][f] < 1 ? g.arm[ax][f] : Vec<Dim>(window_.face_centre(face, axis) - g.pose.cog);
         j[axis] += flux;
         if constexpr (Dim == 2) {
           j[2] += flux * (axis == 0 ? -r[1] : r[0]);
@@ -273,9 +275,13 @@ linear::RigidRows<Dim> HullMask<Dim>::rigid_rows(const HullGeometry<Dim>& g) con
         }
       }
     }
-    rows.cell.push_back(window_.global_cell(i));
-    rows.j.push_back(j);
+    out.emplace_back(window_.global_cell(i), j);
   });
+  linear::RigidRows<Dim> rows;
+  for (const auto& [cell, j] : entries) {
+    rows.cell.push_back(cell);
+    rows.j.push_back(j);
+  }
   return rows;
 }
 
@@ -291,7 +297,7 @@ void HullMask<Dim>::mixture_velocity(int axis, const motion::Twist<Dim>& twist, 
       return (twist.template head<3>() + twist.template tail<3>().cross(arm))[axis];
     }
   };
-  window_.for_faces(axis, [&](const IVec<Dim>& i) {
+  window_.for_box_on_threads(filled<Dim>(0), window_.n_faces(axis), [&](const IVec<Dim>& i) {
     const auto at = static_cast<std::size_t>(window_.at(i));
     const double a = half_.aperture[ax][at];
     if (a >= 1) {

@@ -116,26 +116,26 @@ template <int Dim>
 void HullWindow<Dim>::load_cells(const CellField<double, Dim>& f, std::vector<double>& out) const {
   if (!has_gaps_) out.resize(size_);
   else out.assign(size_, 0.0);
-  for (const Tile& tile : tiles_) {
+  for_tiles([&](const Tile& tile) {
     const double* source = f.block(tile.block);
     for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
       IVec<Dim> to = row;
       for (int a = 0; a < Dim; ++a) to[a] += tile.at[a];
       std::copy_n(source + offset<Dim>(row, cell_strides<Dim>()), BlockShape<Dim>::n, out.data() + at(to));
     });
-  }
+  });
 }
 
 template <int Dim>
 void HullWindow<Dim>::store_cells(const std::vector<double>& in, CellField<double, Dim>& f) const {
-  for (const Tile& tile : tiles_) {
+  for_tiles([&](const Tile& tile) {
     double* target = f.block(tile.block);
     for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
       IVec<Dim> from = row;
       for (int a = 0; a < Dim; ++a) from[a] += tile.at[a];
       std::copy_n(in.data() + at(from), BlockShape<Dim>::n, target + offset<Dim>(row, cell_strides<Dim>()));
     });
-  }
+  });
 }
 
 template <int Dim>
@@ -143,24 +143,28 @@ template <class T>
 void HullWindow<Dim>::load_faces(const FaceField<T, Dim>& f, int axis, std::vector<double>& out) const {
   if (!has_gaps_) out.resize(size_);
   else out.assign(size_, 0.0);
-  const int count = BlockShape<Dim>::n + (axis == 0);
-  for (const Tile& tile : tiles_) {
+  for_tiles([&](const Tile& tile) {
     const T* source = f.block(axis, tile.block);
-    for_rows<Dim>(filled<Dim>(0), faces_upper<Dim>(axis), [&](const IVec<Dim>& row) {
+    // Of faces that two tiles hold, those of the upper one count.
+    IVec<Dim> beyond = tile.at, upper = faces_upper<Dim>(axis);
+    beyond[axis] += BlockShape<Dim>::n;
+    if (beyond[axis] < n_[axis] && tile_of(beyond) >= 0) --upper[axis];
+    const int count = upper[0];
+    for_rows<Dim>(filled<Dim>(0), upper, [&](const IVec<Dim>& row) {
       IVec<Dim> to = row;
       for (int a = 0; a < Dim; ++a) to[a] += tile.at[a];
       const T* s = source + offset<Dim>(row, face_strides<Dim>(axis));
       double* d = out.data() + at(to);
       for (int i = 0; i < count; ++i) d[i] = static_cast<double>(s[i]);
     });
-  }
+  });
 }
 
 template <int Dim>
 template <class T>
 void HullWindow<Dim>::store_faces(const std::vector<double>& in, int axis, FaceField<T, Dim>& f) const {
   const int count = BlockShape<Dim>::n + (axis == 0);
-  for (const Tile& tile : tiles_) {
+  for_tiles([&](const Tile& tile) {
     T* target = f.block(axis, tile.block);
     for_rows<Dim>(filled<Dim>(0), faces_upper<Dim>(axis), [&](const IVec<Dim>& row) {
       IVec<Dim> from = row;
@@ -169,7 +173,7 @@ void HullWindow<Dim>::store_faces(const std::vector<double>& in, int axis, FaceF
       T* d = target + offset<Dim>(row, face_strides<Dim>(axis));
       for (int i = 0; i < count; ++i) d[i] = static_cast<T>(s[i]);
     });
-  }
+  });
 }
 
 template <int Dim>

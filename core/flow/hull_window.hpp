@@ -40,6 +40,11 @@ class HullWindow {
   bool cover(const Vec<Dim>& lower, const Vec<Dim>& upper, const Touches& touches);
 
   const IVec<Dim>& n() const { return n_; }       ///< cells along each axis
+  IVec<Dim> n_faces(int axis) const {             ///< faces of an axis along each axis
+    IVec<Dim> n = n_;
+    ++n[axis];
+    return n;
+  }
   std::size_t size() const { return size_; }      ///< entries of an array
   int stride(int axis) const { return stride_[static_cast<std::size_t>(axis)]; }
   int at(const IVec<Dim>& i) const {
@@ -81,21 +86,58 @@ class HullWindow {
   template <class T>
   void store_faces(const std::vector<double>& in, int axis, FaceField<T, Dim>& f) const;
 
-  /// f(index) over all cells, or all faces of an axis; rows of tiles on threads.
+  /// f(index) over all cells, or all faces of an axis, or a box of entries, one after another.
   template <class F>
   void for_cells(F&& f) const {
     field::for_box<Dim>(field::filled<Dim>(0), n_, f);
   }
   template <class F>
   void for_faces(int axis, F&& f) const {
-    IVec<Dim> upper = n_;
-    ++upper[axis];
-    field::for_box<Dim>(field::filled<Dim>(0), upper, f);
+    field::for_box<Dim>(field::filled<Dim>(0), n_faces(axis), f);
+  }
+  /// The same on threads, layers of the last axis at a time: f may write what belongs to its own index only.
+  template <class F>
+  void for_box_on_threads(const IVec<Dim>& lower, const IVec<Dim>& upper, F&& f) const {
+    mesh::parallel_for(upper[Dim - 1] - lower[Dim - 1], forest_.threads(), [&](int layer) {
+      const auto [low, high] = layer_of(lower, upper, layer);
+      field::for_box<Dim>(low, high, f);
+    });
+  }
+  template <class F>
+  void for_cells_on_threads(F&& f) const {
+    for_box_on_threads(field::filled<Dim>(0), n_, f);
+  }
+  /// What f(index, list) appends to a list of T, in the order of the entries whatever the number of threads.
+  template <class T, class F>
+  std::vector<T> collect(const IVec<Dim>& lower, const IVec<Dim>& upper, F&& f) const {
+    const int layers = std::max(0, upper[Dim - 1] - lower[Dim - 1]);
+    std::vector<std::vector<T>> lists(static_cast<std::size_t>(layers));
+    mesh::parallel_for(layers, forest_.threads(), [&](int layer) {
+      const auto [low, high] = layer_of(lower, upper, layer);
+      auto& list = lists[static_cast<std::size_t>(layer)];
+      field::for_box<Dim>(low, high, [&](const IVec<Dim>& i) { f(i, list); });
+    });
+    std::vector<T> all;
+    for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+    return all;
+  }
+  template <class T, class F>
+  std::vector<T> collect(F&& f) const {
+    return collect<T>(field::filled<Dim>(0), n_, f);
   }
   const Forest<Dim>& forest() const { return forest_; }
 
  private:
   void check_missing(const Touches& touches) const;
+  template <class F>
+  void for_tiles(F&& f) const {
+    mesh::parallel_for(static_cast<int>(tiles_.size()), forest_.threads(), [&](int t) { f(tiles_[static_cast<std::size_t>(t)]); });
+  }
+  static std::pair<IVec<Dim>, IVec<Dim>> layer_of(IVec<Dim> lower, IVec<Dim> upper, int layer) {
+    lower[Dim - 1] += layer;
+    upper[Dim - 1] = lower[Dim - 1] + 1;
+    return {lower, upper};
+  }
 
   const Forest<Dim>& forest_;
   bool through_sides_;

@@ -17,9 +17,10 @@ InterfacePlanes<Dim>::InterfacePlanes(const Forest<Dim>& forest)
       slot_(static_cast<std::size_t>(forest.n_blocks()), -1) {}
 
 template <int Dim>
-void InterfacePlanes<Dim>::reconstruct(const CellField<double, Dim>& vof) {
+void InterfacePlanes<Dim>::reconstruct(const CellField<double, Dim>& vof, const std::vector<int>& changed,
+                                       const std::vector<int>& wanted) {
   constexpr int cells = BlockShape<Dim>::cells;
-  forest_.for_each_leaf([&](int b) {
+  mesh::for_each(changed, forest_.threads(), [&](int b) {
     const double* c = vof.block(b);
     int water = 0, air = 0;
     for (int i = 0; i < cells; ++i) {
@@ -39,7 +40,7 @@ void InterfacePlanes<Dim>::reconstruct(const CellField<double, Dim>& vof) {
     }
   }
   mixed_leaves_.clear();
-  for (const int b : forest_.leaves()) {
+  for (const int b : wanted) {
     const auto& block = forest_.block(b);
     BlockPhase phase = phase_[static_cast<std::size_t>(b)];
     slot_[static_cast<std::size_t>(b)] = -1;

@@ -17,7 +17,10 @@ class InterfacePlanes {
  public:
   explicit InterfacePlanes(const Forest<Dim>& forest);
   /// Planes for the volume fractions (parents restricted before).
-  void reconstruct(const CellField<double, Dim>& vof);
+  void reconstruct(const CellField<double, Dim>& vof) { reconstruct(vof, forest_.leaves(), forest_.leaves()); }
+  /// Planes of some leaves alone; those of the others are lost. `changed`: leaves whose values may not be those of the
+  /// last call.
+  void reconstruct(const CellField<double, Dim>& vof, const std::vector<int>& changed, const std::vector<int>& wanted);
   BlockPhase phase(int b) const { return phase_[static_cast<std::size_t>(b)]; }
   /// The phase that the block and all blocks around it share, or mixed.
   BlockPhase surroundings(int b) const { return around_[static_cast<std::size_t>(b)]; }

@@ -55,7 +55,7 @@ double VolumeBook<Dim>::visible_in(const HullMask<Dim>& mask, const IVec<Dim>& i
 template <int Dim>
 void VolumeBook<Dim>::measure(const HullMask<Dim>& mask, const std::vector<double>& vof) {
   visible_.assign(mask.window().size(), 0.0);
-  mask.window().for_cells([&](const IVec<Dim>& i) {
+  mask.window().for_cells_on_threads([&](const IVec<Dim>& i) {
     visible_[static_cast<std::size_t>(mask.window().at(i))] = visible_in(mask, i, vof);
   });
 }
@@ -89,8 +89,8 @@ void VolumeBook<Dim>::close_fluxes(const HullMask<Dim>& mask, const CellField<do
                                    const motion::Twist<Dim>& twist, double dt) {
   const HullWindow<Dim>& window = mask.window();
   const auto& theta = mask.fluid_fraction();
-  book_.clear();
-  window.for_cells([&](const IVec<Dim>& i) {
+  using Held = std::pair<std::int64_t, Entry>;
+  const auto held = window.template collect<Held>([&](const IVec<Dim>& i, std::vector<Held>& out) {
     const auto at = static_cast<std::size_t>(window.at(i));
     bool touched = theta[at] < 1;
     for (int axis = 0; axis < Dim; ++axis) {
@@ -120,8 +120,10 @@ void VolumeBook<Dim>::close_fluxes(const HullMask<Dim>& mask, const CellField<do
         volume -= (side == 0 ? -1.0 : 1.0) * passed * window.face_area(axis);
       }
     }
-    book_[window.global_cell(i)] = {volume, mask.walls() == Walls::thin ? space_of(mask, i) : -1};
+    out.push_back({window.global_cell(i), {volume, mask.walls() == Walls::thin ? space_of(mask, i) : -1}});
   });
+  book_.clear();
+  book_.insert(held.begin(), held.end());
 }
 
 template <int Dim>
@@ -204,16 +206,15 @@ void VolumeBook<Dim>::release(const HullMask<Dim>& mask, std::vector<double>& vo
   };
   for (auto& [space, owed] : reservoir_) {
     if (std::abs(owed) < 1e-15 * volume) continue;
-    std::vector<Taker> takers;
-    double weights = 0;
-    window.for_cells([&](const IVec<Dim>& i) {
+    auto takers = window.template collect<Taker>([&](const IVec<Dim>& i, std::vector<Taker>& out) {
       const auto at = static_cast<std::size_t>(window.at(i));
       const double c = vof[at];
       if (theta[at] < 1 || !is_mixed(c) || on_edge<Dim>(window, i, 2)) return;
       if ((thin ? space_of(mask, i) : mask.space_at(window.cell_centre(i))) != space) return;
-      takers.push_back({at, c * (1 - c)});
-      weights += c * (1 - c);
+      out.push_back({at, c * (1 - c)});
     });
+    double weights = 0;
+    for (const Taker& t : takers) weights += t.weight;
     const double amount = part * owed;
     double left = amount;
     for (const Taker& t : takers) {
@@ -255,38 +256,53 @@ void VolumeBook<Dim>::settle(const HullMask<Dim>& mask, const std::vector<double
     int space;
     double volume;
   };
-  std::vector<Defect> defects;
-  std::vector<std::pair<IVec<Dim>, double>> cut;
-  window.for_cells([&](const IVec<Dim>& i) {
+  struct Look {  // at one cell
+    IVec<Dim> cell{};
+    std::array<Defect, 2> defects;
+    int n_defects = 0;
+    bool is_cut = false;
+    double seen = 0;
+  };
+  const auto looks = window.template collect<Look>([&](const IVec<Dim>& i, std::vector<Look>& out) {
     const auto at = static_cast<std::size_t>(window.at(i));
     const auto entry = book_.find(window.global_cell(i));
     if (entry == book_.end() && theta[at] >= 1) return;
+    Look look;
+    const auto missing = [&](int space, double volume) {
+      if (volume != 0) look.defects[static_cast<std::size_t>(look.n_defects++)] = {i, space, volume};
+    };
     const double wanted = entry != book_.end() ? entry->second.volume : advected[at] * window.cell_volume();
     const double seen = visible_in(mask, i, vof);
     const int space = space_of(mask, i);
     const int before = entry != book_.end() && entry->second.space >= 0 ? entry->second.space : space;
     if (before != space) {  // a wall has passed the cell's middle: it now shows another space's water
-      if (wanted != 0) defects.push_back({i, before, wanted});
-      if (seen != 0) defects.push_back({i, space, -seen});
+      missing(before, wanted);
+      missing(space, -seen);
     } else if (wanted != seen) {
-      defects.push_back({i, space, wanted - seen});
+      missing(space, wanted - seen);
     }
-    if (theta[at] < 1) cut.emplace_back(i, seen);
+    look.cell = i;
+    look.is_cut = theta[at] < 1;
+    look.seen = seen;
+    out.push_back(look);
   });
-  for (const auto& [i, space, defect] : defects) {
-    last_defect_ += std::abs(defect);
-    if (!correct) continue;
-    const double left = give(mask, i, space, defect, vof);
-    if (left != 0) reservoir_[space] += left;
-  }
+  for (const Look& look : looks)
+    for (int k = 0; k < look.n_defects; ++k) {
+      const auto& [i, space, defect] = look.defects[static_cast<std::size_t>(k)];
+      last_defect_ += std::abs(defect);
+      if (!correct) continue;
+      const double left = give(mask, i, space, defect, vof);
+      if (left != 0) reservoir_[space] += left;
+    }
   if (correct) release(mask, vof, dt);
   measure(mask, vof);
   if (!correct) return;
   // What was given to a cell tilts the planes of the cut cells beside it: they show more or less water than
   // before, although their volume fraction is the same. That too is owed.
-  for (const auto& [i, seen] : cut) {
-    const double shown = visible_[static_cast<std::size_t>(window.at(i))] - seen;
-    if (shown != 0) reservoir_[space_of(mask, i)] -= shown;
+  for (const Look& look : looks) {
+    if (!look.is_cut) continue;
+    const double shown = visible_[static_cast<std::size_t>(window.at(look.cell))] - look.seen;
+    if (shown != 0) reservoir_[space_of(mask, look.cell)] -= shown;
   }
 }
 

@@ -30,6 +30,8 @@ class VolumeBook {
   /// `twist` is the one in w, `dt` the whole step.
   void close_fluxes(const HullMask<Dim>& mask, const CellField<double, Dim>& vof,
                     const motion::Twist<Dim>& twist, double dt);
+  /// After close_fluxes: whether the book says what this cell (HullWindow::global_cell) must hold.
+  bool holds(std::int64_t cell) const { return book_.contains(cell); }
   /// Walls::thin, after close_fluxes: a wall that moves through the mesh has carried the other space's volume
   /// fractions into the cells beside it; takes that back (the book has the water).
   void undo_wall_fluxes(const HullMask<Dim>& mask, CellField<double, Dim>& vof, double dt);

@@ -64,6 +64,12 @@ void parallel_for(int n, int threads, F&& f) {
   if (loop.first) std::rethrow_exception(loop.first);
 }
 
+/// f(item) for the items of a list.
+template <class F>
+void for_each(const std::vector<int>& items, int threads, F&& f) {
+  parallel_for(static_cast<int>(items.size()), threads, [&](int i) { f(items[static_cast<std::size_t>(i)]); });
+}
+
 /// Sum of f(i), each computed on its own, added in the order of i.
 template <class F>
 double parallel_sum(int n, int threads, F&& f) {

@@ -202,7 +202,7 @@ struct Stage {
 struct TimeControl {
   double dt = 0;                     ///< [s]; 0: steps_per_period of the shortest natural or wave period
   double steps_per_period = 120;
-  int max_substeps = 4;              ///< advection sub-steps a step before dt is lowered
+  int max_substeps = 16;             ///< advection sub-steps a step before dt is lowered
   double cfl = 0.5;                  ///< per sub-step, sum over directions
 };
 

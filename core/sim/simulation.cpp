@@ -15,6 +15,13 @@ using field::for_box;
 using field::offset;
 using mesh::BlockShape;
 
+namespace {
+
+/// Nothing that moves so many cells in a step is a flow (unless the case allows more).
+constexpr double lost_courant = 32;
+
+}  // namespace
+
 template <int Dim>
 double Simulation<Dim>::end_flux(const FaceField<double, Dim>& swept) const {
   const int axis = zones_->axis();
@@ -68,7 +75,7 @@ void Simulation<Dim>::extend_pressure() {
   std::vector<double> p;
   window.load_cells(state_.p, p);
   std::vector<char> known(window.size(), 0);
-  window.for_cells([&](const IVec<Dim>& i) {
+  window.for_cells_on_threads([&](const IVec<Dim>& i) {
     const auto at = static_cast<std::size_t>(window.at(i));
     for (int a = 0; a < Dim; ++a) {
       const auto& aperture = mask_->half().aperture[static_cast<std::size_t>(a)];
@@ -78,8 +85,8 @@ void Simulation<Dim>::extend_pressure() {
   IVec<Dim> upper = window.n();
   for (int& u : upper) --u;
   for (int layer = 0; layer < 2; ++layer) {
-    std::vector<std::pair<std::size_t, double>> fill;
-    for_box<Dim>(filled<Dim>(1), upper, [&](const IVec<Dim>& i) {
+    using Fill = std::pair<std::size_t, double>;
+    const auto fill = window.template collect<Fill>(filled<Dim>(1), upper, [&](const IVec<Dim>& i, std::vector<Fill>& out) {
       const auto at = static_cast<std::size_t>(window.at(i));
       if (known[at]) return;
       double sum = 0;
@@ -93,7 +100,7 @@ void Simulation<Dim>::extend_pressure() {
           ++count;
         }
       }
-      if (count > 0) fill.emplace_back(at, sum / count);
+      if (count > 0) out.emplace_back(at, sum / count);
     });
     for (const auto& [at, value] : fill) {
       p[at] = value;
@@ -198,18 +205,27 @@ StepReport Simulation<Dim>::step() {
   const Case& c = model_->description;
   StepReport report;
   clock_.charge("output");
-  report.courant = advection_.courant_number(state_.w, dt_);
-  if (!std::isfinite(report.courant) || report.courant > 16 * c.time.cfl * c.time.max_substeps) {
+  const std::vector<double> courant = advection_.courant_numbers(state_.w, dt_);
+  report.courant = flow::largest_courant(courant);
+  if (!std::isfinite(report.courant) || report.courant > std::max(lost_courant, 4 * c.time.cfl * c.time.max_substeps)) {
     report.failed = true;
     report.failure = fmt::format("the Courant number reached {:.3g} at t = {:.4f} s", report.courant, time_);
     return report;
   }
-  report.substeps = std::max(1, static_cast<int>(std::ceil(report.courant / c.time.cfl)));
+  // Without a hull there is no book for what local sub-steps clip.
+  const flow::SubStepPlan<Dim> plan = flow::plan_sub_steps(*forest_, courant, c.time.cfl, mask_ != nullptr);
+  report.substeps = plan.total();
   // Transport with w at t + dt/2.
   if (mask_) book_.begin_step(*mask_, state_);
-  for (int s = 0; s < report.substeps; ++s) advection_.advance(state_, dt_ / report.substeps, sub_step_++);
+  std::vector<typename flow::Advection<Dim>::Clip> clips;
+  for (int s = 0; s < plan.whole; ++s) {
+    const auto more = advection_.advance(state_, dt_ / plan.whole, sub_step_++, plan);
+    clips.insert(clips.end(), more.begin(), more.end());
+  }
   if (mask_) {
     book_.close_fluxes(*mask_, state_.vof, body_.twist, dt_);
+    for (const auto& clip : clips)
+      if (!book_.holds(clip.cell)) owe(mask_->space_at(clip.centre), clip.volume);
     book_.undo_wall_fluxes(*mask_, state_.vof, dt_);
   }
   clock_.charge("advection");

@@ -1,0 +1,30 @@
+// Some leaves of a forest, to work on them alone: the leaves, their sides behind which the rest of the mesh lies, and
+// what restriction (core/field/restrict.hpp) has to look at.
+#pragma once
+
+#include "core/mesh/forest.hpp"
+
+namespace seaway::mesh {
+
+template <int Dim>
+struct ForestPart {
+  std::vector<int> leaves;                  ///< in the order of Forest::leaves
+  std::vector<unsigned char> cut_sides;     ///< by block: bit 2 axis + side where what lies behind is not all in the part
+  std::vector<int> parents;                 ///< Forest::interface_parents over the leaves, finest level first
+  std::vector<CoarseFace> coarse_faces;     ///< those of Forest::coarse_faces that a leaf of the part touches
+
+  bool is_cut(int b, int axis, int side) const {
+    return (cut_sides[static_cast<std::size_t>(b)] >> (2 * axis + side)) & 1;
+  }
+};
+
+/// Chosen leaves (by block, others are ignored) and all leaves that share a face, edge or corner with one; of a face
+/// between levels that a chosen leaf touches, all leaves on it: no chosen leaf has a cut side in the part they make.
+template <int Dim>
+std::vector<char> with_neighbours(const Forest<Dim>& forest, const std::vector<char>& chosen);
+
+/// The part made of the chosen leaves (by block).
+template <int Dim>
+ForestPart<Dim> make_part(const Forest<Dim>& forest, const std::vector<char>& chosen);
+
+}  // namespace seaway::mesh

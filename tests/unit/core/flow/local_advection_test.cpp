@@ -1,0 +1,160 @@
+// A region that takes more sub-steps than the rest of the mesh.
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "core/flow/advection.hpp"
+#include "tests/unit/core/flow/tanks.hpp"
+
+namespace seaway::flow {
+namespace {
+
+using namespace testing;
+
+template <int Dim>
+constexpr int roots = Dim == 2 ? 6 : 5;
+
+template <int Dim>
+Forest<Dim> jumpy(int threads = 1) {
+  return unit_tank<Dim>(roots<Dim>, 1.3, 3.6, 1, true, threads);
+}
+
+/// A flow with a jet in the middle, across a surface and a level jump: a stream function with a narrow hump.
+template <int Dim>
+FlowState<Dim> jet(const Forest<Dim>& forest) {
+  FlowState<Dim> state(forest);
+  fill_water<Dim>(forest, [](const Vec<Dim>& x) { return 0.5 * roots<Dim> + 0.2 * std::sin(2 * pi / roots<Dim> * x[0]); }, state);
+  const double k = 2 * pi / roots<Dim>;
+  const auto wrap = [](double x) { return x - roots<Dim> * std::floor(x / roots<Dim>); };
+  const auto psi = [=](double x, double z) {
+    const double dx = wrap(x) - 2.6, dz = wrap(z) - 0.5 * roots<Dim>;
+    return std::sin(k * wrap(x)) * std::cos(k * wrap(z)) / k + 0.8 * std::exp(-(dx * dx + dz * dz) / 0.09);
+  };
+  fill_stream<Dim>(forest, psi, state.w);
+  for (int axis = 0; axis < Dim; ++axis) state.u.data(axis) = state.w.data(axis);
+  return state;
+}
+
+template <int Dim>
+SubStepPlan<Dim> plan_for(const Forest<Dim>& forest, const Advection<Dim>& advection, const FlowState<Dim>& state, double dt) {
+  return plan_sub_steps<Dim>(forest, advection.courant_numbers(state.w, dt), 0.45, true);
+}
+
+template <int Dim>
+void plan_holds_the_limit() {
+  const auto forest = jumpy<Dim>();
+  const FlowState<Dim> state = jet<Dim>(forest);
+  const Advection<Dim> advection(forest, {}, {});
+  const double dt = 2.9 * 0.45 / advection.courant_number(state.w, 1.0);
+  const auto courant = advection.courant_numbers(state.w, dt);
+  const auto plan = plan_for<Dim>(forest, advection, state, dt);
+  ASSERT_GT(plan.inner, 1);
+  EXPECT_EQ(plan.total(), 3);
+  EXPECT_FALSE(plan.fast.empty());
+  EXPECT_EQ(plan.fast.size() + plan.slow.size(), forest.leaves().size());
+  EXPECT_LT(plan.region.leaves.size(), forest.leaves().size());
+  std::vector<char> fast(static_cast<std::size_t>(forest.n_blocks()), 0), inside = fast;
+  for (const int b : plan.fast) fast[static_cast<std::size_t>(b)] = 1;
+  for (const int b : plan.region.leaves) inside[static_cast<std::size_t>(b)] = 1;
+  for (std::size_t i = 0; i < courant.size(); ++i) {
+    const auto b = static_cast<std::size_t>(forest.leaves()[i]);
+    EXPECT_LE(courant[i] / (fast[b] ? plan.total() : plan.whole), 0.45 * (1 + 1e-12));
+    EXPECT_TRUE(!fast[b] || inside[b]);
+    EXPECT_TRUE(!fast[b] || plan.region.cut_sides[b] == 0) << "a ring lies around every fast leaf";
+  }
+  EXPECT_EQ(plan_sub_steps<Dim>(forest, courant, 0.45, false).whole, 3);
+  EXPECT_EQ(plan_sub_steps<Dim>(forest, courant, 2.0, true).total(), 1);
+}
+TEST(SubStepPlan, HoldsTheLimitWithFewerLeavesIn2D) { plan_holds_the_limit<2>(); }
+TEST(SubStepPlan, HoldsTheLimitWithFewerLeavesIn3D) { plan_holds_the_limit<3>(); }
+
+/// Steps with the plan, and with as many sub-steps everywhere.
+template <int Dim>
+void same_as_everywhere(int steps, double vof_bound, double u_bound) {
+  const auto forest = jumpy<Dim>();
+  FlowState<Dim> local = jet<Dim>(forest), whole = jet<Dim>(forest);
+  Advection<Dim> advection(forest, {}, {}), reference(forest, {}, {});
+  const double dt = 2.9 * 0.45 / advection.courant_number(local.w, 1.0);
+  const auto plan = plan_for<Dim>(forest, advection, local, dt);
+  ASSERT_EQ(plan.whole, 1);
+  FaceField<double, Dim> passed(forest);
+  advection.set_flux_visitor([&](int axis, const FaceField<double, Dim>& swept) {
+    for (std::size_t k = 0; k < passed.data(axis).size(); ++k) passed.data(axis)[k] += swept.data(axis)[k];
+  });
+  const CellField<double, Dim> before = local.vof;
+  CellField<double, Dim> clipped(forest);
+  double cut = 0;
+  for (int s = 0; s < steps; ++s) {
+    for (const auto& clip : advection.advance(local, dt, s, plan)) {
+      clipped.data()[static_cast<std::size_t>(clip.cell)] += clip.volume;
+      cut += std::abs(clip.volume);
+    }
+    for (int k = 0; k < plan.inner; ++k) reference.advance(whole, dt / plan.inner, s);
+    ASSERT_LT(duplicate_difference<Dim>(forest, local.u), 1e-13) << "after step " << s;
+  }
+  double balance = 0, vof = 0, volume = 0, low = 0, high = 0, u = 0;
+  each_cell<Dim>(forest, [&](int b, const IVec<Dim>& i) {
+    const auto& block = forest.block(b);
+    double gain = -cell_of(clipped, b, i) / block.cell_volume();
+    for (int axis = 0; axis < Dim; ++axis) {
+      IVec<Dim> next = i;
+      ++next[axis];
+      gain += (face_of(passed, axis, b, i) - face_of(passed, axis, b, next)) / block.h[axis];
+    }
+    const double now = cell_of(local.vof, b, i);
+    balance = std::max(balance, std::abs(now - cell_of(before, b, i) - gain));
+    vof += std::abs(now - cell_of(whole.vof, b, i)) * block.cell_volume();
+    volume += block.cell_volume();
+    low = std::min(low, now);
+    high = std::max(high, now - 1);
+  });
+  for (int axis = 0; axis < Dim; ++axis)
+    each_face<Dim>(forest, axis, [&](int b, const IVec<Dim>& i) {
+      u = std::max(u, std::abs(face_of(local.u, axis, b, i) - face_of(whole.u, axis, b, i)));
+    });
+  EXPECT_LT(balance, 1e-12) << "what passed the faces is what the cells gained";
+  EXPECT_GT(low, -1e-12);
+  EXPECT_LT(high, 1e-12);
+  EXPECT_LT(cut, 1e-5 * volume);
+  EXPECT_LT(vof / volume, vof_bound);
+  EXPECT_LT(u, u_bound);
+  std::cout << "clipped " << cut / volume << ", vof " << vof / volume << ", u " << u << '\n';
+}
+// Speeds up to 3.8; the bounds are two to four times what the difference in time makes.
+TEST(LocalAdvection, DiffersByTheTimeStepFromSubStepsEverywhereIn2D) { same_as_everywhere<2>(4, 2e-6, 0.03); }
+TEST(LocalAdvection, DiffersByTheTimeStepFromSubStepsEverywhereIn3D) { same_as_everywhere<3>(2, 1e-5, 0.03); }
+
+TEST(LocalAdvection, KeepsAUniformVelocity) {
+  const auto forest = jumpy<3>();
+  FlowState<3> state = jet<3>(forest);
+  fill_faces<3>(forest, [](const Vec3&, int axis) { return 0.3 + axis; }, state.u);
+  Advection<3> advection(forest, {}, {});
+  const double dt = 2.9 * 0.45 / advection.courant_number(state.w, 1.0);
+  const auto plan = plan_for<3>(forest, advection, state, dt);
+  ASSERT_GT(plan.inner, 1);
+  for (int s = 0; s < 2; ++s) advection.advance(state, dt, s, plan);
+  double error = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    each_face<3>(forest, axis, [&](int b, const IVec<3>& i) {
+      error = std::max(error, std::abs(face_of(state.u, axis, b, i) - (0.3 + axis)));
+    });
+  EXPECT_LT(error, 1e-10);
+}
+
+TEST(LocalAdvection, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const auto one = jumpy<2>(1), three = jumpy<2>(3);
+  FlowState<2> a = jet<2>(one), b = jet<2>(three);
+  Advection<2> first(one, {}, {}), second(three, {}, {});
+  const double dt = 2.9 * 0.45 / first.courant_number(a.w, 1.0);
+  const auto plan = plan_for<2>(one, first, a, dt), other = plan_for<2>(three, second, b, dt);
+  ASSERT_GT(plan.inner, 1);
+  for (int s = 0; s < 3; ++s) {
+    first.advance(a, dt, s, plan);
+    second.advance(b, dt, s, other);
+  }
+  EXPECT_EQ(a.vof.data(), b.vof.data());
+  for (int axis = 0; axis < 2; ++axis) EXPECT_EQ(a.u.data(axis), b.u.data(axis));
+}
+
+}  // namespace
+}  // namespace seaway::flow

@@ -1,0 +1,89 @@
+#include "core/mesh/forest_part.hpp"
+
+#include <gtest/gtest.h>
+
+namespace seaway::mesh {
+namespace {
+
+/// Two levels of refinement around a point off the middle.
+template <int Dim>
+Forest<Dim> uneven(bool periodic) {
+  TankGrid<Dim> grid;
+  grid.lower.setZero();
+  grid.upper.setConstant(4);
+  grid.root_blocks.fill(4);
+  grid.periodic.fill(periodic);
+  const RefineRule<Dim> rule = [](const Vec<Dim>& lower, const Vec<Dim>& upper, int) {
+    return (lower.array() <= 1.3).all() && (upper.array() >= 1.3).all();
+  };
+  return Forest<Dim>(grid, 2, rule, 1);
+}
+
+/// Whether two leaves share more than nothing of their surfaces; of a periodic tank the nearest images count.
+template <int Dim>
+bool touch(const Forest<Dim>& f, int a, int b) {
+  constexpr int n = BlockShape<Dim>::n;
+  for (int d = 0; d < Dim; ++d) {
+    const double la = f.block(a).origin[d], lb = f.block(b).origin[d];
+    const double ea = n * f.block(a).h[d], eb = n * f.block(b).h[d];
+    bool near = la <= lb + eb + 1e-9 && lb <= la + ea + 1e-9;
+    if (f.grid().periodic[static_cast<std::size_t>(d)])
+      for (const double shift : {-4.0, 4.0}) near = near || (la + shift <= lb + eb + 1e-9 && lb <= la + shift + ea + 1e-9);
+    if (!near) return false;
+  }
+  return true;
+}
+
+template <int Dim>
+void neighbours_are_those_that_touch(bool periodic) {
+  const Forest<Dim> f = uneven<Dim>(periodic);
+  for (const int chosen : f.leaves()) {
+    std::vector<char> one(static_cast<std::size_t>(f.n_blocks()), 0);
+    one[static_cast<std::size_t>(chosen)] = 1;
+    const auto around = with_neighbours(f, one);
+    const auto part = make_part(f, around);
+    EXPECT_EQ(part.cut_sides[static_cast<std::size_t>(chosen)], 0);
+    for (const int b : f.leaves()) {
+      if (touch(f, chosen, b)) EXPECT_TRUE(around[static_cast<std::size_t>(b)]) << chosen << " " << b;
+      // Beyond those only what completes a face between levels: leaves finer than one that touches.
+      else if (around[static_cast<std::size_t>(b)]) EXPECT_EQ(f.block(b).level, f.block(chosen).level);
+    }
+  }
+}
+TEST(ForestPart, NeighboursAreTheLeavesThatTouchIn2D) { neighbours_are_those_that_touch<2>(false); }
+TEST(ForestPart, NeighboursAreTheLeavesThatTouchIn3D) { neighbours_are_those_that_touch<3>(false); }
+TEST(ForestPart, NeighboursMeetAcrossPeriodicSides) { neighbours_are_those_that_touch<2>(true); }
+
+template <int Dim>
+void sides_are_cut_for_both(unsigned pick) {
+  const Forest<Dim> f = uneven<Dim>(false);
+  std::vector<char> chosen(static_cast<std::size_t>(f.n_blocks()), 0);
+  for (std::size_t i = 0; i < f.leaves().size(); ++i)
+    chosen[static_cast<std::size_t>(f.leaves()[i])] = ((i * 2654435761U) >> 7) % pick != 0;
+  const auto part = make_part(f, chosen);
+  int cut = 0;
+  for (const int b : part.leaves)
+    for (int axis = 0; axis < Dim; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        const int nb = f.block(b).neighbour[static_cast<std::size_t>(face_neighbour<Dim>(axis, side))];
+        cut += part.is_cut(b, axis, side);
+        if (nb == no_block) EXPECT_FALSE(part.is_cut(b, axis, side));
+        if (nb >= 0 && f.block(nb).leaf) EXPECT_EQ(part.is_cut(b, axis, side), !chosen[static_cast<std::size_t>(nb)]);
+        if (nb < 0 || f.block(nb).leaf) continue;
+        bool all = true;  // a jump is open for the coarse leaf and every fine one on it, or for none
+        for (int c = 0; c < BlockShape<Dim>::children; ++c)
+          if (((c >> axis) & 1) == 1 - side) all = all && chosen[static_cast<std::size_t>(f.block(nb).child[static_cast<std::size_t>(c)])];
+        EXPECT_EQ(part.is_cut(b, axis, side), !all);
+        for (int c = 0; c < BlockShape<Dim>::children; ++c) {
+          const int child = f.block(nb).child[static_cast<std::size_t>(c)];
+          if (((c >> axis) & 1) == 1 - side && chosen[static_cast<std::size_t>(child)])
+            EXPECT_EQ(part.is_cut(child, axis, 1 - side), !all);
+        }
+      }
+  EXPECT_GT(cut, 0);
+}
+TEST(ForestPart, BothLeavesOfASideSeeItCutIn2D) { sides_are_cut_for_both<2>(3); }
+TEST(ForestPart, BothLeavesOfASideSeeItCutIn3D) { sides_are_cut_for_both<3>(4); }
+
+}  // namespace
+}  // namespace seaway::mesh
