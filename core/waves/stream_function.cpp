@@ -198,7 +198,7 @@ StreamFunctionSolution solve_stream_function(const StreamFunctionProblem& p) {
          p.height, length, p.depth, highest);
   };
   // A steep wave of given period is up to about 20 % longer than the linear one.
-  if (p.height > (by_length ? 1.0 : 1.3) * limit) too_high(2 * pi / k_linear, limit);
+  if (!(p.height <= (by_length ? 1.0 : 1.3) * limit)) too_high(2 * pi / k_linear, limit);  // also if there is no limit
 
   std::optional<NewtonResult> result;
   int n = 0;

@@ -81,6 +81,11 @@ std::unique_ptr<const WaveField> make_wave(const RegularWaveSpec& spec) {
                "wave period is {} s and length is {} m; give exactly one of the two", spec.period,
                spec.length);
   positive(spec.period > 0 ? spec.period : spec.length, spec.period > 0 ? "period" : "length");
+  const double length = spec.length > 0 ? spec.length : 2 * pi / linear_wave_number(2 * pi / spec.period, spec.depth, spec.gravity);
+  const double highest = highest_wave(length, spec.depth);  // not a number where powers of length over depth overflow
+  SEAWAY_CHECK(std::isfinite(highest) && highest > 0,
+               "wave length {:.4g} m (period {:.4g} s) in depth {:.4g} m is out of all proportion; check the units", length,
+               spec.period, spec.depth);
   switch (spec.theory) {
     case RegularWaveSpec::Theory::airy:
       return make_airy_wave(spec);

@@ -247,7 +247,7 @@ TEST_F(ExampleSection, QueriesAreFast) {
     std::printf("block at (%.2f, %.2f): solid_part %.0f ns, solid_volume_below %.0f ns, face %.0f ns\n",
                 centre.x(), centre.y(), part, below, face);
 #ifdef NDEBUG
-    EXPECT_LT(part, 5000.0);  // aim 500; loose because machines are shared
+    EXPECT_LT(part, 5000.0 * SEAWAY_SLOWDOWN);  // aim 500; loose because machines are shared
 #endif
   }
   EXPECT_TRUE(std::isfinite(sink));

@@ -150,5 +150,21 @@ TEST(WaveField, RefusesNonsense) {
               HasSubstr("wave period is inf"));
 }
 
+TEST(WaveField, RefusesLengthsOutOfAllProportionToTheDepth) {
+  using Theory = RegularWaveSpec::Theory;
+  for (const Theory theory : {Theory::airy, Theory::stokes_5, Theory::stream_function}) {
+    for (const double size : {1e-200, 1e120, 1e200}) {
+      for (const bool by_length : {true, false}) {
+        RegularWaveSpec spec;
+        spec.theory = theory;
+        spec.height = 1e-3;
+        spec.depth = 1;
+        (by_length ? spec.length : spec.period) = size;
+        EXPECT_THROW(make_wave(spec), Error) << size << (by_length ? " m" : " s");
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace seaway::waves
