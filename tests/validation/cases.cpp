@@ -14,6 +14,8 @@ const std::vector<Case>& all_cases() {
        run_barge_heave_decay},
       {"cylinder_decay", Suite::full, "heave decay of a half-submerged cylinder on three meshes against linear theory",
        run_cylinder_decay},
+      {"sphere_decay", Suite::full, "heave decay of a floating sphere on three meshes against the towing tank",
+       run_sphere_decay},
       {"flooding", Suite::quick, "a damaged compartment fills, its sealed neighbour stays dry",
        run_flooding},
       {"wave_train", Suite::quick, "a regular wave keeps height and speed over ten periods",

@@ -41,6 +41,7 @@ void run_barge_at_rest(const Context& context, Results& results);
 void run_barge_roll_decay(const Context& context, Results& results);
 void run_barge_heave_decay(const Context& context, Results& results);
 void run_cylinder_decay(const Context& context, Results& results);
+void run_sphere_decay(const Context& context, Results& results);
 void run_flooding(const Context& context, Results& results);
 void run_wave_train(const Context& context, Results& results);
 void run_beach(const Context& context, Results& results);
