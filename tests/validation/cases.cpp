@@ -56,6 +56,7 @@ const std::vector<Case>& all_cases() {
       {"threads", Suite::quick, "the number of threads changes no bit", run_threads},
       {"ship_held", Suite::full, "a held ship in calm water makes no currents and feels its hydrostatics",
        run_ship_held},
+      {"ship_at_rest", Suite::ships, "the ship let go in calm water, intact and damaged: draft, heel", run_ship_at_rest},
       {"dtmb5415_decay_intact", Suite::ships, "roll decay of the intact ship from 19.6 degrees: period",
        run_dtmb5415_decay_intact, "ship_decay"},
       {"dtmb5415_decay_damaged", Suite::ships,

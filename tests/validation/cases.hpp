@@ -51,6 +51,7 @@ void run_pressure_scaling(const Context& context, Results& results);
 void run_pressure_scaling_3d(const Context& context, Results& results);
 void run_mapping(const Context& context, Results& results);
 void run_threads(const Context& context, Results& results);
+void run_ship_at_rest(const Context& context, Results& results);
 void run_ship_held(const Context& context, Results& results);
 void run_dtmb5415_decay_intact(const Context& context, Results& results);
 void run_dtmb5415_decay_damaged(const Context& context, Results& results);
