@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
+#include <vector>
 
 #include "core/flow/advection.hpp"
 #include "core/flow/projection.hpp"
@@ -108,6 +110,69 @@ TEST(Viscosity, TaylorGreenVortexDecaysAtTheExactRate) {
   std::cout << "Taylor-Green errors " << coarse << ", " << fine << "\n";
   EXPECT_LT(coarse, 0.08);
   EXPECT_LT(fine, 0.6 * coarse);  // at least first order, with dt in proportion
+}
+
+/// Two fluids between plates, the upper one moving: the speed at their border, from rest to the steady state, in parts of
+/// the plate's. Exact: the stress is the same in both, and so the drops of speed are as thickness over mu = rho nu.
+struct Couette {
+  double border = 0, exact = 0;
+  double stress_range = 0;  ///< in the two fluids away from the border, (largest - smallest) / mean
+};
+
+Couette two_layers(int roots, bool conservative) {
+  mesh::TankGrid<2> grid;
+  grid.lower.setZero();
+  grid.upper = Vec2(1, 1);
+  grid.root_blocks.fill(roots);
+  grid.periodic = {true, false};
+  const Forest<2> forest(grid, 0, [](const Vec2&, const Vec2&, int) { return false; });
+  const double h = 1.0 / (16 * roots), middle = 0.5;
+  FlowState<2> state(forest);
+  fill_water<2>(forest, [&](const Vec2&) { return middle; }, state);
+  FluidProperties fluids;
+  fluids.rho_water = 1000;
+  fluids.rho_air = 10;
+  fluids.nu_water = 0.01;
+  fluids.nu_air = 0.05;
+  field::Boundaries<2> sides;
+  for (int side = 0; side < 2; ++side) sides.wall[1][static_cast<std::size_t>(side)].no_slip = true;
+  sides.wall[1][1].velocity = Vec2(1, 0);
+  Viscosity<2> viscosity(forest, fluids, sides);
+  const CellField<double, 2> no_eddies(forest);
+  for (int s = 0; s < 400; ++s) viscosity.apply(state, 0.5, conservative ? &no_eddies : nullptr);
+  // One column: speeds at cell centres.
+  std::vector<std::pair<double, double>> column;
+  each_face<2>(forest, 0, [&](int b, const IVec<2>& i) {
+    const Vec2 x = forest.block(b).cell_centre(i);
+    if (x[0] < h) column.emplace_back(x[1], face_of(state.u, 0, b, i));
+  });
+  std::sort(column.begin(), column.end());
+  const double mu_water = fluids.rho_water * fluids.nu_water, mu_air = fluids.rho_air * fluids.nu_air;
+  const std::size_t half = column.size() / 2;
+  double low = 1e9, high = -1e9;
+  for (std::size_t k = 1; k < column.size(); ++k) {
+    if (k == half) continue;
+    const double stress = (k < half ? mu_water : mu_air) * (column[k].second - column[k - 1].second) / h;
+    low = std::min(low, stress);
+    high = std::max(high, stress);
+  }
+  Couette c;
+  c.stress_range = (high - low) / (0.5 * (high + low));
+  c.border = column[half - 1].second + 0.5 * (column[half - 1].second - column[half - 2].second);
+  c.exact = 1 / (1 + mu_water / mu_air);
+  return c;
+}
+
+TEST(Viscosity, TwoLayersBetweenPlatesHaveOneStress) {
+  const Couette coarse = two_layers(1, true), fine = two_layers(2, true);
+  std::cout << "Couette, speed at the border " << coarse.border << ", " << fine.border << ", exact " << fine.exact
+            << "; stress differs by " << fine.stress_range << "; without a section `turbulence` "
+            << two_layers(1, false).border << "\n";
+  EXPECT_LT(coarse.stress_range, 1e-6);
+  EXPECT_LT(fine.stress_range, 1e-6);
+  // The border's own edge has a harmonic rho and a mean nu: of first order.
+  EXPECT_NEAR(coarse.border, coarse.exact, 0.05 * coarse.exact);
+  EXPECT_LT(std::abs(fine.border - fine.exact), 0.6 * std::abs(coarse.border - coarse.exact));
 }
 
 }  // namespace
