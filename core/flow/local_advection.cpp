@@ -31,19 +31,16 @@ void copy_faces(const FaceField<double, Dim>& from, int axis, int b, FaceField<d
   std::copy_n(from.block(axis, b), BlockShape<Dim>::faces, to.block(axis, b));
 }
 
-/// f(offset) for a leaf's faces of an axis that lie on a cut side of the part.
+/// f(offset) for a leaf's faces on a side.
 template <int Dim, class F>
-void for_cut_faces(const mesh::ForestPart<Dim>& part, int axis, int b, F&& f) {
-  for (int side = 0; side < 2; ++side) {
-    if (!part.is_cut(b, axis, side)) continue;
-    IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
-    lower[axis] = side == 0 ? 0 : BlockShape<Dim>::n;
-    upper[axis] = lower[axis] + 1;
-    for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) { f(offset<Dim>(i, face_strides<Dim>(axis))); });
-  }
+void for_side_faces(int axis, int side, F&& f) {
+  IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
+  lower[axis] = side == 0 ? 0 : BlockShape<Dim>::n;
+  upper[axis] = lower[axis] + 1;
+  for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) { f(offset<Dim>(i, face_strides<Dim>(axis))); });
 }
 
-/// The same for all others.
+/// f(offset) for a leaf's faces of an axis that do not lie on a cut side of the part.
 template <int Dim, class F>
 void for_uncut_faces(const mesh::ForestPart<Dim>& part, int axis, int b, F&& f) {
   IVec<Dim> lower = filled<Dim>(0), upper = faces_upper<Dim>(axis);
@@ -123,16 +120,24 @@ void Advection<Dim>::sweep_region(FlowState<Dim>& state, int axis, double dt, co
   field::restrict_cells<double, Dim>(forest_, region, state.epsilon);
 }
 
-/// Velocities on the region's sides go in equal steps to those that the rest of the mesh has.
+/// Velocities on the region's sides go in equal steps to those that the rest of the mesh has; both copies of a face do.
 template <int Dim>
 void Advection<Dim>::approach_sides(FlowState<Dim>& state, int steps_left, const mesh::ForestPart<Dim>& region) const {
+  const auto approach = [&](int b, int axis, int side) {
+    const double* to = held_u_.block(axis, b);
+    double* u = state.u.block(axis, b);
+    for_side_faces<Dim>(axis, side, [&](int o) { u[o] = steps_left == 1 ? to[o] : u[o] + (to[o] - u[o]) / steps_left; });
+  };
   mesh::for_each(region.leaves, forest_.threads(), [&](int b) {
-    for (int a = 0; a < Dim; ++a) {
-      const double* to = held_u_.block(a, b);
-      double* u = state.u.block(a, b);
-      for_cut_faces<Dim>(region, a, b, [&](int o) { u[o] = steps_left == 1 ? to[o] : u[o] + (to[o] - u[o]) / steps_left; });
-    }
+    for (int a = 0; a < Dim; ++a)
+      for (int side = 0; side < 2; ++side)
+        if (region.is_cut(b, a, side)) approach(b, a, side);
   });
+  mesh::parallel_for(static_cast<int>(region.rim.size()), forest_.threads(), [&](int k) {
+    const mesh::LeafSide& rim = region.rim[static_cast<std::size_t>(k)];
+    approach(rim.leaf, rim.axis, rim.side);
+  });
+  for (int a = 0; a < Dim; ++a) field::restrict_faces<double, Dim>(forest_, region, state.u, a);
 }
 
 template <int Dim>
@@ -165,13 +170,20 @@ std::vector<typename Advection<Dim>::Clip> Advection<Dim>::advance(FlowState<Dim
   if (recorded_.data(0).empty()) recorded_ = FaceField<double, Dim>(forest_);
   advance_rest(state, dt, step, plan);
   std::swap(recorded_, swept_);
+  hold(state);
+  // What the region's ghosts see of the rest.
+  vof_new_ = state.vof;
+  mesh::parallel_for(forest_.n_blocks(), forest_.threads(), [&](int b) {
+    for (int a = 0; a < Dim; ++a)
+      std::transform(recorded_.block(a, b), recorded_.block(a, b) + BlockShape<Dim>::faces, swept_.block(a, b),
+                     [&](double whole) { return whole / plan.inner; });
+  });
   mesh::for_each(region.leaves, forest_.threads(), [&](int b) {
     for (int a = 0; a < Dim; ++a) {
       double* sum = recorded_.block(a, b);
       for_uncut_faces<Dim>(region, a, b, [&](int o) { sum[o] = 0; });
     }
   });
-  hold(state);
   planes_.reconstruct(state.vof, forest_.leaves(), region.leaves);
   for (int left = plan.inner; left > 0; --left) {
     mesh::for_each(region.leaves, forest_.threads(), [&](int b) {

@@ -48,6 +48,19 @@ bool goes_on(const Forest<Dim>& forest, const std::vector<char>& chosen, int b, 
   return all;
 }
 
+/// Whether anything behind a side of a leaf is chosen.
+template <int Dim>
+bool touches_chosen(const Forest<Dim>& forest, const std::vector<char>& chosen, int b, int axis, int side) {
+  const int entry = face_neighbour<Dim>(axis, side);
+  const int nb = forest.block(b).neighbour[static_cast<std::size_t>(entry)];
+  if (nb == no_block) return false;
+  if (nb == coarser_neighbour) return chosen[static_cast<std::size_t>(coarser_leaf(forest, forest.block(b), entry))] != 0;
+  if (forest.block(nb).leaf) return chosen[static_cast<std::size_t>(nb)] != 0;
+  bool any = false;
+  for_children_at(forest.block(nb), axis, 1 - side, [&](int child) { any = any || chosen[static_cast<std::size_t>(child)]; });
+  return any;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -92,7 +105,12 @@ ForestPart<Dim> make_part(const Forest<Dim>& forest, const std::vector<char>& ch
   part.cut_sides.assign(n_blocks, 0);
   std::vector<char> above(n_blocks, 0);  // ancestors of the leaves
   for (const int b : forest.leaves()) {
-    if (!chosen[static_cast<std::size_t>(b)]) continue;
+    if (!chosen[static_cast<std::size_t>(b)]) {
+      for (int axis = 0; axis < Dim; ++axis)
+        for (int side = 0; side < 2; ++side)
+          if (touches_chosen(forest, chosen, b, axis, side)) part.rim.push_back({b, axis, side});
+      continue;
+    }
     part.leaves.push_back(b);
     for (int up = forest.block(b).parent; up >= 0 && !above[static_cast<std::size_t>(up)]; up = forest.block(up).parent)
       above[static_cast<std::size_t>(up)] = 1;
@@ -104,7 +122,7 @@ ForestPart<Dim> make_part(const Forest<Dim>& forest, const std::vector<char>& ch
   for (const int p : forest.interface_parents())
     if (above[static_cast<std::size_t>(p)]) part.parents.push_back(p);
   for (const CoarseFace& face : forest.coarse_faces())
-    if (chosen[static_cast<std::size_t>(face.leaf)] || above[static_cast<std::size_t>(face.parent)]) part.coarse_faces.push_back(face);
+    if (chosen[static_cast<std::size_t>(face.leaf)] && !part.is_cut(face.leaf, face.axis, face.side)) part.coarse_faces.push_back(face);
   return part;
 }
 

@@ -6,12 +6,18 @@
 
 namespace seaway::mesh {
 
+/// A side of a leaf (0: lower, 1: upper along the axis).
+struct LeafSide {
+  int leaf = 0, axis = 0, side = 0;
+};
+
 template <int Dim>
 struct ForestPart {
   std::vector<int> leaves;                  ///< in the order of Forest::leaves
   std::vector<unsigned char> cut_sides;     ///< by block: bit 2 axis + side where what lies behind is not all in the part
+  std::vector<LeafSide> rim;                ///< sides of leaves outside the part behind which a leaf of it lies
   std::vector<int> parents;                 ///< Forest::interface_parents over the leaves, finest level first
-  std::vector<CoarseFace> coarse_faces;     ///< those of Forest::coarse_faces that a leaf of the part touches
+  std::vector<CoarseFace> coarse_faces;     ///< those of Forest::coarse_faces with all their leaves in the part
 
   bool is_cut(int b, int axis, int side) const {
     return (cut_sides[static_cast<std::size_t>(b)] >> (2 * axis + side)) & 1;

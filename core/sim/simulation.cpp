@@ -127,7 +127,7 @@ motion::DofMatrix<Dim> Simulation<Dim>::inverse_mass() const {
 template <int Dim>
 void Simulation<Dim>::stress(double dt) {
   if (!model_->description.fluids.viscous) return;
-  const CellField<double, Dim>* nu_t = turbulence_ ? &turbulence_->nu_t() : no_eddies_.data().empty() ? nullptr : &no_eddies_;
+  const CellField<double, Dim>* nu_t = turbulence_ ? &turbulence_->nu_t() : nullptr;
   if (!turbulence_ && !walls_) {
     viscosity_.apply(state_, dt, nu_t);
     return;

@@ -170,7 +170,6 @@ class Simulation {
   flow::SlipFlux<Dim> slip_flux_;
   flow::Viscosity<Dim> viscosity_;
   std::unique_ptr<flow::KEpsilon<Dim>> turbulence_;
-  CellField<double, Dim> no_eddies_;  ///< nu_t = 0 for `laminar`; empty otherwise
   std::unique_ptr<flow::HullWalls<Dim>> walls_;
   std::unique_ptr<flow::HullMask<Dim>> mask_;
   flow::HullExtension<Dim> extension_;

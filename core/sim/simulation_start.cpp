@@ -65,7 +65,6 @@ Simulation<Dim>::Simulation(std::shared_ptr<const Model<Dim>> model, std::unique
     turbulence_ = std::make_unique<flow::KEpsilon<Dim>>(*forest_, model_->fluids, model_->boundaries, model_->turbulence);
     turbulence_->initialise(state_);
   }
-  if (c.turbulence.model == Turbulence::Model::laminar) no_eddies_ = CellField<double, Dim>(*forest_);
   if (mask_ && model_->wall_model != flow::WallModel::slip)
     walls_ = std::make_unique<flow::HullWalls<Dim>>(model_->wall_model, model_->fluids);
   dt_ = next_dt_ = model_->dt;

@@ -71,7 +71,6 @@ double error_on(int cells, const ExactWave& exact, double nu, int threads, Resul
   sim::Case c = one_fluid_tank(0, -length, cells / 2, 2 * cells, h, nu);  // half a wave between slip walls
   c.fluids.rho_water = rho_water;
   c.fluids.rho_air = rho_air;
-  c.turbulence.model = sim::Turbulence::Model::laminar;
   c.time.dt = exact.period() / (4 * cells);
   const auto run = start(c, threads);
   each_cell(*run, [&](int b, int i, const Vec2& x) {

@@ -19,15 +19,15 @@ Forest<Dim> jumpy(int threads = 1) {
   return unit_tank<Dim>(roots<Dim>, 1.3, 3.6, 1, true, threads);
 }
 
-/// A flow with a jet in the middle, across a surface and a level jump: a stream function with a narrow hump.
+/// A flow with a jet about x in the surface: a stream function with a narrow hump.
 template <int Dim>
-FlowState<Dim> jet(const Forest<Dim>& forest) {
+FlowState<Dim> jet(const Forest<Dim>& forest, double at = 2.6) {
   FlowState<Dim> state(forest);
   fill_water<Dim>(forest, [](const Vec<Dim>& x) { return 0.5 * roots<Dim> + 0.2 * std::sin(2 * pi / roots<Dim> * x[0]); }, state);
   const double k = 2 * pi / roots<Dim>;
   const auto wrap = [](double x) { return x - roots<Dim> * std::floor(x / roots<Dim>); };
   const auto psi = [=](double x, double z) {
-    const double dx = wrap(x) - 2.6, dz = wrap(z) - 0.5 * roots<Dim>;
+    const double dx = wrap(x) - at, dz = wrap(z) - 0.5 * roots<Dim>;
     return std::sin(k * wrap(x)) * std::cos(k * wrap(z)) / k + 0.8 * std::exp(-(dx * dx + dz * dz) / 0.09);
   };
   fill_stream<Dim>(forest, psi, state.w);
@@ -49,7 +49,7 @@ void plan_holds_the_limit() {
   const auto courant = advection.courant_numbers(state.w, dt);
   const auto plan = plan_for<Dim>(forest, advection, state, dt);
   ASSERT_GT(plan.inner, 1);
-  EXPECT_EQ(plan.total(), 3);
+  EXPECT_GE(plan.total(), 3);
   EXPECT_FALSE(plan.fast.empty());
   EXPECT_EQ(plan.fast.size() + plan.slow.size(), forest.leaves().size());
   EXPECT_LT(plan.region.leaves.size(), forest.leaves().size());
@@ -70,13 +70,13 @@ TEST(SubStepPlan, HoldsTheLimitWithFewerLeavesIn3D) { plan_holds_the_limit<3>();
 
 /// Steps with the plan, and with as many sub-steps everywhere.
 template <int Dim>
-void same_as_everywhere(int steps, double vof_bound, double u_bound) {
+void same_as_everywhere(double at, int steps, double vof_bound, double u_bound) {
   const auto forest = jumpy<Dim>();
-  FlowState<Dim> local = jet<Dim>(forest), whole = jet<Dim>(forest);
+  FlowState<Dim> local = jet<Dim>(forest, at), whole = jet<Dim>(forest, at);
   Advection<Dim> advection(forest, {}, {}), reference(forest, {}, {});
   const double dt = 2.9 * 0.45 / advection.courant_number(local.w, 1.0);
   const auto plan = plan_for<Dim>(forest, advection, local, dt);
-  ASSERT_EQ(plan.whole, 1);
+  ASSERT_GT(plan.inner, 1);
   FaceField<double, Dim> passed(forest);
   advection.set_flux_visitor([&](int axis, const FaceField<double, Dim>& swept) {
     for (std::size_t k = 0; k < passed.data(axis).size(); ++k) passed.data(axis)[k] += swept.data(axis)[k];
@@ -85,11 +85,13 @@ void same_as_everywhere(int steps, double vof_bound, double u_bound) {
   CellField<double, Dim> clipped(forest);
   double cut = 0;
   for (int s = 0; s < steps; ++s) {
-    for (const auto& clip : advection.advance(local, dt, s, plan)) {
-      clipped.data()[static_cast<std::size_t>(clip.cell)] += clip.volume;
-      cut += std::abs(clip.volume);
+    for (int k = 0; k < plan.whole; ++k) {
+      for (const auto& clip : advection.advance(local, dt / plan.whole, s + k, plan)) {
+        clipped.data()[static_cast<std::size_t>(clip.cell)] += clip.volume;
+        cut += std::abs(clip.volume);
+      }
+      for (int i = 0; i < plan.inner; ++i) reference.advance(whole, dt / plan.total(), s + k);
     }
-    for (int k = 0; k < plan.inner; ++k) reference.advance(whole, dt / plan.inner, s);
     ASSERT_LT(duplicate_difference<Dim>(forest, local.u), 1e-13) << "after step " << s;
   }
   double balance = 0, vof = 0, volume = 0, low = 0, high = 0, u = 0;
@@ -120,9 +122,14 @@ void same_as_everywhere(int steps, double vof_bound, double u_bound) {
   EXPECT_LT(u, u_bound);
   std::cout << "clipped " << cut / volume << ", vof " << vof / volume << ", u " << u << '\n';
 }
-// Speeds up to 3.8; the bounds are two to four times what the difference in time makes.
-TEST(LocalAdvection, DiffersByTheTimeStepFromSubStepsEverywhereIn2D) { same_as_everywhere<2>(4, 2e-6, 0.03); }
-TEST(LocalAdvection, DiffersByTheTimeStepFromSubStepsEverywhereIn3D) { same_as_everywhere<3>(2, 1e-5, 0.03); }
+// Speeds up to 3.8; the bounds are two to three times what the difference in time makes.
+TEST(LocalAdvection, DiffersByTheTimeStepFromSubStepsEverywhereIn2D) { 
+  for (const double at : {1.1, 1.6, 2.6, 3.3, 3.9}) {  // inside, beside and across the level jumps
+    SCOPED_TRACE(at);
+    same_as_everywhere<2>(at, 4, 4e-6, 0.1);
+  }
+}
+TEST(LocalAdvection, DiffersByTheTimeStepFromSubStepsEverywhereIn3D) { same_as_everywhere<3>(2.6, 2, 1e-5, 0.03); }
 
 TEST(LocalAdvection, KeepsAUniformVelocity) {
   const auto forest = jumpy<3>();

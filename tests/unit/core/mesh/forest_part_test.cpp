@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace seaway::mesh {
 namespace {
 
@@ -81,6 +83,18 @@ void sides_are_cut_for_both(unsigned pick) {
         }
       }
   EXPECT_GT(cut, 0);
+  // From outside, the same sides.
+  std::set<std::array<int, 3>> rim;
+  for (const LeafSide& side : part.rim) {
+    EXPECT_FALSE(chosen[static_cast<std::size_t>(side.leaf)]);
+    rim.insert({side.leaf, side.axis, side.side});
+  }
+  for (const int b : part.leaves)
+    for (int axis = 0; axis < Dim; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        const int nb = f.block(b).neighbour[static_cast<std::size_t>(face_neighbour<Dim>(axis, side))];
+        if (nb >= 0 && f.block(nb).leaf && part.is_cut(b, axis, side)) EXPECT_TRUE(rim.contains({nb, axis, 1 - side}));
+      }
 }
 TEST(ForestPart, BothLeavesOfASideSeeItCutIn2D) { sides_are_cut_for_both<2>(3); }
 TEST(ForestPart, BothLeavesOfASideSeeItCutIn3D) { sides_are_cut_for_both<3>(4); }
