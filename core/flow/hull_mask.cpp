@@ -304,8 +304,8 @@ void HullMask<Dim>::mixture_velocity(int axis, const motion::Twist<Dim>& twist, 
       w[at] = u[at];
       return;
     }
-    const Vec<Dim> centre = window_.face_centre(i, axis) - half_.pose.cog;
-    w[at] = a * (u[at] - normal_velocity(half_.arm[ax][at])) + normal_velocity(centre);
+    w[at] = normal_velocity(window_.face_centre(i, axis) - half_.pose.cog);
+    if (a > 0) w[at] += a * (u[at] - normal_velocity(half_.arm[ax][at]));  // closed faces have no arm
   });
 }
 

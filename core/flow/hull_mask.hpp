@@ -31,7 +31,8 @@ struct HullGeometry {
   motion::Pose<Dim> pose;
   std::vector<double> phi;                          ///< cells: signed distance, > 0 in fluid [m]
   std::array<std::vector<double>, Dim> aperture;    ///< faces: 0..1
-  std::array<std::vector<Vec<Dim>>, Dim> arm;       ///< faces with 0 < aperture < 1: centroid of the open part less the cog [m]
+  /// Faces with 0 < aperture < 1, else not set: centroid of the open part less the cog [m].
+  std::array<std::vector<Vec<Dim>>, Dim> arm;
   std::vector<signed char> space;                   ///< cells: 0 sea, 1 + compartment, passage; empty: Walls::resolved
 };
 

@@ -171,15 +171,16 @@ void Viscosity<Dim>::stress_in(int b, const Stage& stage, const std::array<Scrat
 template <int Dim>
 void Viscosity<Dim>::take_stage(const FlowState<Dim>& state, const Stage& stage, const CellField<double, Dim>* nu_t) {
   forest_.for_each_leaf([&](int b) {
-    Scratch<double, Dim> vof, nu{};
+    Scratch<double, Dim> vof;
     std::array<Scratch<double, Dim>, Dim> u;
     field::gather_cells<double, Dim>(forest_, state.vof, b, 1, vof);
     for (int a = 0; a < Dim; ++a)
       field::gather_faces<double, Dim>(forest_, state.u, a, b, 1, boundaries_, u[static_cast<std::size_t>(a)]);
-    if (nu_t) field::gather_cells<double, Dim>(forest_, *nu_t, b, 1, nu);
     if (!nu_t && one_fluid<Dim>(vof)) {
       uniform_stress_in(b, stage, u, vof(filled<Dim>(0)) > 0.5 ? fluids_.nu_water : fluids_.nu_air);
     } else {
+      Scratch<double, Dim> nu{};
+      if (nu_t) field::gather_cells<double, Dim>(forest_, *nu_t, b, 1, nu);
       stress_in(b, stage, u, vof, nu);
     }
     for (int a = 0; a < Dim; ++a) keep_fixed_sides(state, a, b);

@@ -2,6 +2,9 @@
 
 #include <unistd.h>
 
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -23,8 +26,9 @@ std::string digest_of_example(const std::string& example) {
 
 }  // namespace
 
-KeptRuns::KeptRuns(const std::string& folder, const std::string& name)
-    : path_(folder.empty() ? (fs::temp_directory_path() / ("seaway_" + name + "_" + std::to_string(::getpid()))).string()
+KeptRuns::KeptRuns(const std::string& folder, const std::string& name, const std::string& of_project)
+    : of_project_(of_project),
+      path_(folder.empty() ? (fs::temp_directory_path() / ("seaway_" + name + "_" + std::to_string(::getpid()))).string()
                            : folder),
       keep_(!folder.empty()) {
   fs::create_directories(path_);
@@ -42,6 +46,12 @@ RunRecord KeptRuns::finished(const std::string& name, const std::string& example
   RunRecord record;
   const std::string digest = name + " " + digest_of_example(example);
   if (load(file(name + ".json"), record) && record.digest == digest) return record;
+  // With --results a run is wanted that is the code's own.
+  if (!keep_ && load((fs::path(of_project_) / (name + ".json")).string(), record) && record.digest == digest) {
+    fmt::print(stderr, "{}: a run kept with the project ({}, version {}, {:.0f} CPU s); --results DIR runs it anew\n", name, of_project_,
+               record.version, record.total_cpu_s);
+    return record;
+  }
   record = run_and_record(c, file(name), threads, enough, digest);
   save(record, file(name + ".json"));
   return record;

@@ -46,6 +46,13 @@ TEST(KeptRuns, AFinishedRunOfTheExampleIsRead) {
   EXPECT_EQ(r.total_cpu_s, 3);
 }
 
+TEST(KeptRuns, ARunKeptWithTheProjectIsReadUnlessResultsAreAskedFor) {
+  const testing::TempFolder project, results;
+  save(decay(digest_of_run("run")), project / "run.json");
+  EXPECT_EQ(KeptRuns("", "case", project.path()).finished("run", example, {}, 1, {}).version, "1");
+  EXPECT_THROW(KeptRuns(results.path(), "case", project.path()).finished("run", example, {}, 1, {}), std::exception);
+}
+
 // The empty case cannot run: that it is asked to shows that the record was not taken.
 TEST(KeptRuns, ARunOfAnotherTextOfTheExampleIsRunAgain) {
   const testing::TempFolder folder;
