@@ -26,9 +26,17 @@ void copy_cells(const CellField<double, Dim>& from, int b, CellField<double, Dim
   std::copy_n(from.block(b), BlockShape<Dim>::cells, to.block(b));
 }
 
+/// What transport moves, of some leaves: from the state to fields of their own (`carried`: tke, epsilon).
 template <int Dim>
-void copy_faces(const FaceField<double, Dim>& from, int axis, int b, FaceField<double, Dim>& to) {
-  std::copy_n(from.block(axis, b), BlockShape<Dim>::faces, to.block(axis, b));
+void copy_leaves(const Forest<Dim>& forest, const std::vector<int>& leaves, const FlowState<Dim>& state,
+                 CellField<double, Dim>& vof, FaceField<double, Dim>& u, std::array<CellField<double, Dim>, 2>& carried) {
+  mesh::for_each(leaves, forest.threads(), [&](int b) {
+    copy_cells(state.vof, b, vof);
+    for (int a = 0; a < Dim; ++a) std::copy_n(state.u.block(a, b), BlockShape<Dim>::faces, u.block(a, b));
+    if (!state.turbulent()) return;
+    copy_cells(state.tke, b, carried[0]);
+    copy_cells(state.epsilon, b, carried[1]);
+  });
 }
 
 /// f(offset) for a leaf's faces on a side.
@@ -56,13 +64,7 @@ template <int Dim>
 void Advection<Dim>::advance_rest(FlowState<Dim>& state, double dt, std::int64_t step, const SubStepPlan<Dim>& plan) {
   start_from(state);
   for (int k = 0; k < Dim; ++k) {
-    mesh::for_each(plan.fast, forest_.threads(), [&](int b) {
-      copy_cells(state.vof, b, vof_new_);
-      for (int a = 0; a < Dim; ++a) copy_faces(state.u, a, b, u_new_);
-      if (!state.turbulent()) return;
-      copy_cells(state.tke, b, carried_new_[0]);
-      copy_cells(state.epsilon, b, carried_new_[1]);
-    });
+    copy_leaves(forest_, plan.fast, state, vof_new_, u_new_, carried_new_);
     sweep(plan.slow, state, static_cast<int>((k + step) % Dim), dt);
     take_new(state);
   }
@@ -186,25 +188,13 @@ std::vector<typename Advection<Dim>::Clip> Advection<Dim>::advance(FlowState<Dim
   });
   planes_.reconstruct(state.vof, forest_.leaves(), region.leaves);
   for (int left = plan.inner; left > 0; --left) {
-    mesh::for_each(region.leaves, forest_.threads(), [&](int b) {
-      copy_cells(state.vof, b, vof_start_);
-      for (int a = 0; a < Dim; ++a) copy_faces(state.u, a, b, u_start_);
-      if (!state.turbulent()) return;
-      copy_cells(state.tke, b, carried_start_[0]);
-      copy_cells(state.epsilon, b, carried_start_[1]);
-    });
+    copy_leaves(forest_, region.leaves, state, vof_start_, u_start_, carried_start_);
     for (int k = 0; k < Dim; ++k) sweep_region(state, static_cast<int>((k + step) % Dim), dt / plan.inner, plan);
     approach_sides(state, left, region);
   }
   // The region joins the rest.
   std::vector<Clip> clips = clip(state, region.leaves);
-  mesh::for_each(region.leaves, forest_.threads(), [&](int b) {
-    copy_cells(state.vof, b, held_vof_);
-    for (int a = 0; a < Dim; ++a) copy_faces(state.u, a, b, held_u_);
-    if (!state.turbulent()) return;
-    copy_cells(state.tke, b, held_carried_[0]);
-    copy_cells(state.epsilon, b, held_carried_[1]);
-  });
+  copy_leaves(forest_, region.leaves, state, held_vof_, held_u_, held_carried_);
   std::swap(state.vof, held_vof_);
   std::swap(state.u, held_u_);
   if (state.turbulent()) {
