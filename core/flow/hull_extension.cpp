@@ -97,12 +97,13 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
     }
     return false;
   };
-  front_.clear();  // cells that see water, but only above or below them
+  front_.clear();  // cells over water that see nothing at their own height; on a floor that is right, water stands there
+  deeper_.clear();
   for (int layer = 1; layer <= extension_layers; ++layer) {
     struct Filled {
       int at = 0;
       double value = 0;
-      bool level = false;
+      bool level = false, below = false;  ///< found at its own height; the fluid that it sees does not lie above it
     };
     const auto filled_cells = window.template collect<Filled>(filled<Dim>(1), inner_upper, [&](const IVec<Dim>& i, std::vector<Filled>& out) {
       const int at = window.at(i);
@@ -139,16 +140,16 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
         if (mean_weight > 0) break;
       }
       if (mean_weight == 0) return;
-      out.push_back({at, level_weight > 0 ? levels / level_weight : means / mean_weight, level_weight > 0});
+      out.push_back({at, level_weight > 0 ? levels / level_weight : means / mean_weight, level_weight > 0, gradient[Dim - 1] <= 0});
     });
-    for (const auto& [at, value, level] : filled_cells) {
+    for (const auto& [at, value, level, below] : filled_cells) {
       vof[static_cast<std::size_t>(at)] = value;
       layer_[static_cast<std::size_t>(at)] = static_cast<signed char>(layer);
       if (level) level_[static_cast<std::size_t>(at)] = 1;
-      else if (layer == 1 && value > 0.5) front_.push_back(at);
+      else if (below && value > 0.5) (layer == 1 ? front_ : deeper_).push_back(at);
     }
   }
-  level_off(mask.window(), vof);
+  level_off(mask.window(), behind, vof);
 }
 
 /// Over water under a flat bottom or counter the extension found water, however high the cell lies. If the surface
@@ -156,19 +157,12 @@ void HullExtension<Dim>::extend_vof(const HullMask<Dim>& mask, std::vector<doubl
 /// rows of the cells in `front_` and what lies around them, and the lower of the two counts. Cells that were
 /// reached from above or below are no sources: under a counter the air over the deck would get into the water.
 template <int Dim>
-void HullExtension<Dim>::level_off(const HullWindow<Dim>& window, std::vector<double>& vof) {
+template <class Behind>
+void HullExtension<Dim>::level_off(const HullWindow<Dim>& window, const Behind& behind, std::vector<double>& vof) {
   if (front_.empty()) return;
   constexpr signed char waiting = 100;
   std::vector<int> open = front_;
-  // Deeper layers were filled from the same cells.
-  IVec<Dim> upper = window.n();
-  for (int& u : upper) --u;
-  const auto deeper = window.template collect<int>(filled<Dim>(1), upper, [&](const IVec<Dim>& i, std::vector<int>& out) {
-    const int at = window.at(i);
-    const auto cell = static_cast<std::size_t>(at);
-    if (layer_[cell] > 1 && !level_[cell] && vof[cell] > 0.5) out.push_back(at);
-  });
-  open.insert(open.end(), deeper.begin(), deeper.end());
+  open.insert(open.end(), deeper_.begin(), deeper_.end());  // were filled from the same cells
   std::vector<double> before;
   before.reserve(open.size());
   for (const int at : open) {
@@ -187,7 +181,7 @@ void HullExtension<Dim>::level_off(const HullWindow<Dim>& window, std::vector<do
       for (int a = 0; a + 1 < Dim; ++a)
         for (const int step : {-window.stride(a), window.stride(a)}) {
           const auto from = static_cast<std::size_t>(open[k] + step);
-          if (layer_[from] < 0 || layer_[from] == waiting || !level_[from]) continue;
+          if (layer_[from] < 0 || layer_[from] == waiting || !level_[from] || behind(open[k], static_cast<int>(from))) continue;
           sum += vof[from];
           ++count;
         }

@@ -37,12 +37,13 @@ class HullExtension {
   template <class Behind>
   void fill_layers(const HullWindow<Dim>& window, const std::vector<double>& phi, const Behind& behind,
                    std::span<std::vector<double>* const> fields);
-  void level_off(const HullWindow<Dim>& window, std::vector<double>& vof);
+  template <class Behind>
+  void level_off(const HullWindow<Dim>& window, const Behind& behind, std::vector<double>& vof);
 
   std::vector<signed char> layer_, face_space_;
   std::vector<char> level_;  ///< cells that know the water at their own height: in the fluid, or reached along a row
   std::vector<double> next_;
-  std::vector<int> front_, list_;
+  std::vector<int> front_, deeper_, list_;
 };
 
 extern template class HullExtension<2>;

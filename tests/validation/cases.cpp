@@ -43,6 +43,8 @@ const std::vector<Case>& all_cases() {
       {"wave_across_levels", Suite::quick, "a wave over level jumps in its surface", run_wave_across_levels},
       {"rotating_hull", Suite::quick, "an ellipse turning in a fluid at rest: added inertia, momentum, energy",
        run_rotating_hull},
+      {"rolling_tank", Suite::quick, "water in a rolling tank, thick and thin walls: its moment against linear sloshing",
+       run_rolling_tank},
       {"lid_cavity", Suite::quick, "flow in a square driven by its lid against Ghia et al.", run_lid_cavity},
       {"decaying_turbulence", Suite::quick, "k-epsilon without production against its exact solution",
        run_decaying_turbulence},

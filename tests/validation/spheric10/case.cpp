@@ -59,16 +59,6 @@ sim::Case rolling_tank(double h, double base_cell) {
   return c;
 }
 
-/// Takes away the water around the tank and starts again with what is left.
-void empty_surroundings(Section& run) {
-  flow::FlowState<2> state = run.state();
-  each_cell(run, [&](int b, int i, const Vec2& x) {
-    if (run.mask()->space_at(x) == 0) state.vof.block(b)[i] = 0;
-  });
-  std::fill(state.p.data().begin(), state.p.data().end(), 0.0);
-  run.adopt(std::move(state), run.body(), 0, 0, run.dt(), {}, nullptr);
-}
-
 struct Impact {
   double time = std::nan(""), peak = std::nan(""), impulse = 0;  ///< [s], [Pa], [Pa s]
 };
@@ -95,7 +85,7 @@ struct Sloshing {
 
 Sloshing slosh(double h, double base_cell, double duration, int threads) {
   const auto run = start(rolling_tank(h, base_cell), threads);
-  empty_surroundings(*run);
+  empty_the_sea(*run);
   const auto& probes = run->model().description.outputs.probes;
   const double water = run->water().visible;
   Sloshing out;

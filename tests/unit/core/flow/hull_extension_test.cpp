@@ -71,5 +71,29 @@ TEST(HullExtension, TraceOfAirUnderTheBottomStaysATrace) {
   EXPECT_GT(inside, 40);
 }
 
+// Water on a floor stands on it, whatever is beside the floor at its own height: the air outside a tank's walls, say.
+TEST(HullExtension, WaterOnADeckGoesOnIntoTheDeck) {
+  const BargeTank tank;
+  const HullMask<2> mask = tank.mask_at(BargeTank::afloat(1.3 * degree));
+  const auto& window = mask.window();
+  const double deck = height - draft + 0.0021;  // over z = 0
+  std::vector<double> vof(window.size(), 0.0);
+  window.for_cells([&](const IVec<2>& i) {
+    const Vec2 x = window.cell_centre(i);
+    if (std::abs(x[0]) < 0.5 * beam && x[1] > deck - 0.02 && x[1] < deck + 0.03) vof[static_cast<std::size_t>(window.at(i))] = 1;
+  });
+  for (int step = 0; step < 3; ++step) HullExtension<2>().extend_vof(mask, vof);
+  int in_the_deck = 0;
+  window.for_cells([&](const IVec<2>& i) {
+    const auto at = static_cast<std::size_t>(window.at(i));
+    const Vec2 x = window.cell_centre(i);
+    if (mask.fluid_fraction()[at] >= 0.5 || mask.now().phi[at] < -window.h()[1]) return;
+    if (std::abs(x[0]) > 0.08 || x[1] < 0) return;
+    ++in_the_deck;
+    EXPECT_EQ(vof[at], 1) << x.transpose();
+  });
+  EXPECT_GT(in_the_deck, 20);
+}
+
 }  // namespace
 }  // namespace seaway::flow
