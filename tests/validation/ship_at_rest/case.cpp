@@ -16,9 +16,10 @@ constexpr double too_high = 0.003;                // [m]
 
 struct Rest {
   double draft = 0;          ///< amidships, mean over the end [m]
-  double heel = 0;           ///< largest there [rad]
+  double heel = 0;           ///< mean over the end [rad]
   double hydrostatics = 0;   ///< draft of the same polyhedron by core/hull [m]
   double swing = 0;          ///< of the draft, largest less smallest at the end [m]
+  double roll = 0;           ///< the same of the roll [rad]
   double cells = 0;
 };
 
@@ -31,6 +32,16 @@ double mean_of_end(const Record& r) {
       ++count;
     }
   return sum / count;
+}
+
+double swing_at_end(const Record& r) {
+  double largest = -1e9, smallest = 1e9;
+  for (std::size_t i = 0; i < r.t.size(); ++i)
+    if (r.t[i] > duration - averaged) {
+      largest = std::max(largest, r.value[i]);
+      smallest = std::min(smallest, r.value[i]);
+    }
+  return largest - smallest;
 }
 
 /// `lift`: how much too high it starts [m].
@@ -46,19 +57,17 @@ Rest settle(const std::string& example, double lift, int threads) {
   Rest rest;
   rest.cells = static_cast<double>(run->forest().n_cells());
   rest.hydrostatics = c.body.cog.z() - model->rest_cog.z();
-  Record draft;
-  double largest = -1e9, smallest = 1e9;
+  Record draft, heel;
   while (run->time() < duration) {
     step<3>(*run);
     const auto moved = motion::displacement<3>(run->body().pose, model->rest_cog);
     draft.add(run->time(), rest.hydrostatics - moved[2]);
-    if (run->time() <= duration - averaged) continue;
-    rest.heel = std::max(rest.heel, std::abs(moved[3]));
-    largest = std::max(largest, draft.value.back());
-    smallest = std::min(smallest, draft.value.back());
+    heel.add(run->time(), moved[3]);
   }
   rest.draft = mean_of_end(draft);
-  rest.swing = largest - smallest;
+  rest.heel = mean_of_end(heel);
+  rest.swing = swing_at_end(draft);
+  rest.roll = swing_at_end(heel);
   return rest;
 }
 
@@ -73,8 +82,12 @@ double report_condition(const std::string& name, const std::string& example, dou
   results.report("draft_" + name + "_hydrostatics", afloat.hydrostatics, "m");
   results.report("swing_" + name, afloat.swing, "m");
   results.report("swing_" + name + "_from_above", high.swing, "m");
+  results.report("heel_" + name, afloat.heel / degree, "deg");
+  results.report("heel_" + name + "_from_above", high.heel / degree, "deg");
+  results.report("swing_of_roll_" + name, afloat.roll / degree, "deg");
+  results.report("swing_of_roll_" + name + "_from_above", high.roll / degree, "deg");
   results.report("cells_" + name, afloat.cells, "1");
-  return std::max(afloat.heel, high.heel);
+  return std::max(std::abs(afloat.heel), std::abs(high.heel));
 }
 
 }  // namespace
