@@ -21,10 +21,10 @@ void check_cell(CheckState& s, const std::string& field, double cell) {
                        fmt::format("{} m is coarser than the base cell, {} m; it has no effect",
                                    cell, s.c.base_cell),
                        "cells are the base cell or finer");
-  if (cell < s.c.base_cell / 65536)
+  if (cell < s.c.base_cell / 16384)
     s.findings.error(
         field,
-        fmt::format("{} m is more than 16 halvings below the base cell, {} m", cell, s.c.base_cell),
+        fmt::format("{} m is more than 14 halvings below the base cell, {} m", cell, s.c.base_cell),
         "use larger cells or a smaller mesh.base_cell_m");
 }
 

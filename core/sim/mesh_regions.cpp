@@ -38,6 +38,14 @@ mesh::RefinedBox<Dim> swept_region(const MeshRule& rule, const HullPlace<Dim>& h
 }  // namespace
 
 template <int Dim>
+mesh::TankGrid<Dim> tank_grid(const Case& c) {
+  std::array<bool, Dim> periodic{};
+  for (int a = 0; a < Dim; ++a)
+    periodic[static_cast<std::size_t>(a)] = c.tank.periodic[static_cast<std::size_t>(a + 3 - Dim)];
+  return mesh::make_tank_grid<Dim>(from_vec3<Dim>(c.tank.lower), from_vec3<Dim>(c.tank.upper), c.base_cell, periodic, c.stretch_x);
+}
+
+template <int Dim>
 std::vector<mesh::RefinedBox<Dim>> refined_regions(const MeshRule& rule,
                                                    const std::optional<HullPlace<Dim>>& hull) {
   std::vector<mesh::RefinedBox<Dim>> boxes;
@@ -63,6 +71,8 @@ std::vector<mesh::RefinedBox<Dim>> refined_regions(const MeshRule& rule,
   return boxes;
 }
 
+template mesh::TankGrid<2> tank_grid<2>(const Case&);
+template mesh::TankGrid<3> tank_grid<3>(const Case&);
 template std::vector<mesh::RefinedBox<2>> refined_regions<2>(const MeshRule&,
                                                              const std::optional<HullPlace<2>>&);
 template std::vector<mesh::RefinedBox<3>> refined_regions<3>(const MeshRule&,

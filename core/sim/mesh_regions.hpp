@@ -20,6 +20,10 @@ struct HullPlace {
   double draft = 0;                     ///< [m]
 };
 
+/// Root blocks of a case's tank.
+template <int Dim>
+mesh::TankGrid<Dim> tank_grid(const Case& c);
+
 /// Boxes in earth axes: the region that the hull's bounding box sweeps in roll and heave, bands about the
 /// calm level (infinite where they have no end), boxes at fixed places.
 template <int Dim>

@@ -62,11 +62,7 @@ Model<Dim> make_model(const Case& c) {
   SEAWAY_CHECK(!c.stages.empty(), "cascade.stages is empty; give at least one stage");
   Model<Dim> m;
   m.description = c;
-  std::array<bool, Dim> periodic{};
-  for (int a = 0; a < Dim; ++a)
-    periodic[static_cast<std::size_t>(a)] = c.tank.periodic[static_cast<std::size_t>(a + 3 - Dim)];
-  m.grid = mesh::make_tank_grid<Dim>(from_vec3<Dim>(c.tank.lower), from_vec3<Dim>(c.tank.upper), c.base_cell, periodic,
-                                     c.stretch_x);
+  m.grid = tank_grid<Dim>(c);
   m.fluids.rho_water = c.fluids.rho_water;
   m.fluids.rho_air = c.fluids.rho_air;
   m.fluids.nu_water = c.fluids.nu_water;
