@@ -17,28 +17,45 @@ using field::for_box;
 using field::offset;
 
 template <int Dim>
-WaveZones<Dim>::WaveZones(const Forest<Dim>& forest, std::shared_ptr<const waves::WaveField> wave, int axis,
-                          const ZoneSpec& lower, const ZoneSpec& upper, double rate)
-    : forest_(forest), wave_(std::move(wave)), axis_(axis), spec_{lower, upper}, rate_(rate),
-      begin_(forest.grid().lower[axis]), end_(forest.grid().upper[axis]) {
+WaveZones<Dim>::WaveZones(const Forest<Dim>& forest, std::shared_ptr<const waves::WaveField> wave,
+                          const SideZones<Dim>& sides, double rate)
+    : forest_(forest), wave_(std::move(wave)), sides_(sides), rate_(rate) {
+  const auto& tank = forest.grid();
   for (const int b : forest.leaves()) {
     const auto& block = forest.block(b);
-    const double lo = block.origin[axis], hi = lo + BlockShape<Dim>::n * block.h[axis];
-    if (lo < begin_ + lower.length || hi > end_ - upper.length) blocks_.push_back(b);
+    bool touches = false;
+    for (int a = 0; a + 1 < Dim; ++a) {
+      const auto& [lower, upper] = sides_[static_cast<std::size_t>(a)];
+      const double lo = block.origin[a], hi = lo + BlockShape<Dim>::n * block.h[a];
+      touches = touches || (has_zones(a) && (lo < tank.lower[a] + lower.length || hi > tank.upper[a] - upper.length));
+    }
+    if (touches) blocks_.push_back(b);
   }
 }
 
 template <int Dim>
-double WaveZones<Dim>::gamma(double s) const {
-  const double into_lower = spec_[0].length > 0 ? (begin_ + spec_[0].length - s) / spec_[0].length : 0;
-  const double into_upper = spec_[1].length > 0 ? (s - end_ + spec_[1].length) / spec_[1].length : 0;
-  const double x = std::clamp(std::max(into_lower, into_upper), 0.0, 1.0);
-  return rate_ * x * x;
+bool WaveZones<Dim>::has_zones(int axis) const {
+  if (axis + 1 >= Dim) return false;
+  const auto& [lower, upper] = sides_[static_cast<std::size_t>(axis)];
+  return lower.length > 0 || upper.length > 0;
 }
 
 template <int Dim>
-bool WaveZones<Dim>::towards_wave(double s) const {
-  return drives(s < 0.5 * (begin_ + end_) ? 0 : 1);
+typename WaveZones<Dim>::Pull WaveZones<Dim>::pull_at(const Vec<Dim>& x) const {
+  const auto& tank = forest_.grid();
+  double deepest = 0;
+  Pull out;
+  for (int a = 0; a + 1 < Dim; ++a) {
+    const auto& [lower, upper] = sides_[static_cast<std::size_t>(a)];
+    const double into_lower = lower.length > 0 ? (tank.lower[a] + lower.length - x[a]) / lower.length : 0;
+    const double into_upper = upper.length > 0 ? (x[a] - tank.upper[a] + upper.length) / upper.length : 0;
+    const double into = std::clamp(std::max(into_lower, into_upper), 0.0, 1.0);
+    if (!(into > deepest)) continue;
+    deepest = into;
+    out.to_wave = drives(a, into_lower >= into_upper ? 0 : 1);
+  }
+  out.rate = rate_ * deepest * deepest;
+  return out;
 }
 
 template <int Dim>
@@ -54,8 +71,8 @@ double WaveZones<Dim>::relax_vof(CellField<double, Dim>& vof, double t, double d
     if (top < wave_->trough() - reach || block.origin[Dim - 1] > wave_->crest() + reach) return 0.0;
     for_box<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& i) {
       const Vec<Dim> x = block.cell_centre(i);
-      const double g = gamma(x[axis_]);
-      if (g <= 0 || !towards_wave(x[axis_])) return;
+      const Pull pull = pull_at(x);
+      if (pull.rate <= 0 || !pull.to_wave) return;
       const Vec<Dim> half = 0.5 * block.h;
       double target;
       if (x[Dim - 1] + half[Dim - 1] <= wave_->trough()) target = 1;
@@ -63,7 +80,7 @@ double WaveZones<Dim>::relax_vof(CellField<double, Dim>& vof, double t, double d
       else target = waves::water_fraction<Dim>(*wave_, x - half, x + half, t);
       double& value = c[offset<Dim>(i, cell_strides<Dim>())];
       if (value == target) return;
-      const double weight = 1 - std::exp(-g * dt);
+      const double weight = 1 - std::exp(-pull.rate * dt);
       const double next = std::clamp(value + weight * (target - value), 0.0, 1.0);
       sum += (next - value) * block.cell_volume();
       value = next;
@@ -93,12 +110,12 @@ void WaveZones<Dim>::relax_velocity(FlowState<Dim>& state, double t, double dt) 
       std::array<Vec3, n + 1> velocity;
       for_box<Dim>(filled<Dim>(0), upper, [&](const IVec<Dim>& foot) {
         const Vec<Dim> x = block.face_centre(foot, a);
-        const int side = foot[axis_] == 0 ? 0 : 1;
-        const bool on_end = a == axis_ && (foot[axis_] == 0 || foot[axis_] == n) &&
-                            block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis_, side))] == mesh::no_block;
-        const double g = gamma(x[axis_]);
-        if (g <= 0 && !on_end) return;
-        const bool wave = towards_wave(x[axis_]);
+        const int side = foot[a] == 0 ? 0 : 1;
+        const bool on_end = has_zones(a) && (foot[a] == 0 || foot[a] == n) &&
+                            block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))] == mesh::no_block;
+        const Pull pull = pull_at(x);
+        if (pull.rate <= 0 && !on_end) return;
+        const bool wave = on_end ? drives(a, side) : pull.to_wave;
         for (int l = 0; l < count; ++l) z[static_cast<std::size_t>(l)] = x[Dim - 1] + l * block.h[Dim - 1];
         if (wave) {
           const Vec3 p = to_vec3<Dim>(x);
@@ -114,10 +131,10 @@ void WaveZones<Dim>::relax_velocity(FlowState<Dim>& state, double t, double dt) 
           double& value = u[offset<Dim>(i, fs)];
           const double target = wave ? from_vec3<Dim>(velocity[static_cast<std::size_t>(l)])[a] : 0.0;
           if (on_end) {
-            value = drives(side) ? water * target : 0.0;
+            value = water * target;
             continue;
           }
-          const double rate = g * dt * water;
+          const double rate = pull.rate * dt * water;
           value = (value + rate * target) / (1 + rate);
         }
       });
@@ -132,15 +149,11 @@ void WaveZones<Dim>::relax_scalar(CellField<double, Dim>& f, double value, doubl
   mesh::parallel_for(static_cast<int>(blocks_.size()), forest_.threads(), [&](int k) {
     const int b = blocks_[static_cast<std::size_t>(k)];
     const auto& block = forest_.block(b);
-    std::array<double, BlockShape<Dim>::n> weight{};  // by distance from the end
-    for (int i = 0; i < BlockShape<Dim>::n; ++i) {
-      const double s = block.origin[axis_] + (i + 0.5) * block.h[axis_];
-      if (towards_wave(s)) weight[static_cast<std::size_t>(i)] = 1 - std::exp(-gamma(s) * dt);
-    }
     double* cells = f.block(b);
     for_box<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& i) {
+      const Pull pull = pull_at(block.cell_centre(i));
       double& c = cells[offset<Dim>(i, cell_strides<Dim>())];
-      c += weight[static_cast<std::size_t>(i[axis_])] * (value - c);
+      if (pull.to_wave) c += (1 - std::exp(-pull.rate * dt)) * (value - c);
     });
   });
   field::restrict_cells<double, Dim>(forest_, f);

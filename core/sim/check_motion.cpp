@@ -6,6 +6,7 @@
 #include "core/motion/pose.hpp"
 #include "core/sim/build_hull.hpp"
 #include "core/sim/findings.hpp"
+#include "core/sim/tank_sides.hpp"
 
 namespace seaway::sim {
 
@@ -175,22 +176,19 @@ void check_place(CheckState& s) {
             box.lower[axis], box.upper[axis], low, high),
         "enlarge the tank, or check the hull's size, draft and body.offset");
   }
-  const int axis = s.wave_axis;
-  if (tank.periodic[static_cast<std::size_t>(axis)]) return;
-  // The wave comes from the lower end if it goes along the axis.
-  const double along = axis == 1 ? std::sin(s.c.wave.heading) : std::cos(s.c.wave.heading);
-  const bool upwards = along > 0;
-  const double low =
-      tank.lower[axis] + (upwards ? s.c.zones.generation_length : s.c.zones.absorption_length);
-  const double high =
-      tank.upper[axis] - (upwards ? s.c.zones.absorption_length : s.c.zones.generation_length);
-  if (low < high && (box.lower[axis] < low || box.upper[axis] > high))
-    s.findings.error(
-        "zones",
-        fmt::format("the hull from {:.4g} to {:.4g} m stands in a zone; free of zones: "
-                    "{:.4g} to {:.4g} m",
-                    box.lower[axis], box.upper[axis], low, high),
-        "shorten the zones, lengthen the tank or move the hull (body.offset)");
+  const auto sides = tank_sides(s.c);
+  for (int axis = s.first_axis(); axis < 2; ++axis) {
+    const auto& [lower, upper] = sides[static_cast<std::size_t>(axis)];
+    if (tank.periodic[static_cast<std::size_t>(axis)] || lower.zone + upper.zone == 0) continue;
+    const double low = tank.lower[axis] + lower.zone, high = tank.upper[axis] - upper.zone;
+    if (low < high && (box.lower[axis] < low || box.upper[axis] > high))
+      s.findings.error(
+          "zones",
+          fmt::format("the hull from {:.4g} to {:.4g} m in {} stands in a zone; free of zones: "
+                      "{:.4g} to {:.4g} m",
+                      box.lower[axis], box.upper[axis], axis_names[axis], low, high),
+          "shorten the zones, lengthen the tank or move the hull (body.offset)");
+  }
 }
 
 void check_body(CheckState& s) {

@@ -6,8 +6,6 @@
 namespace seaway::sim {
 namespace {
 
-constexpr const char* axis_names[] = {"x", "y", "z"};
-
 void check_names(CheckState& s, const std::string& field, const std::string& name, std::set<std::string>& names,
                  const char* what) {
   if (name.empty()) s.findings.error(field + ".name", fmt::format("the {} has no name", what), "name it");

@@ -7,12 +7,11 @@
 #include "core/base/error.hpp"
 #include "core/sim/build_wave.hpp"
 #include "core/sim/findings.hpp"
+#include "core/sim/tank_sides.hpp"
 
 namespace seaway::sim {
 
 namespace {
-
-constexpr const char* axis_names[3] = {"x", "y", "z"};
 
 std::string tank_field(int axis) { return fmt::format("tank.{}_m", axis_names[axis]); }
 
@@ -77,25 +76,34 @@ void check_whole_waves(CheckState& s) {
   }
 }
 
+/// A wave across the tank's corners comes in and goes out through all four sides.
+void check_oblique(CheckState& s, const std::string& field) {
+  Findings& f = s.findings;
+  const Tank& tank = s.c.tank;
+  const std::string what = fmt::format("{:.6g} degrees, so waves pass all four sides", s.c.wave.heading / degree);
+  if (tank.periodic[0] || tank.periodic[1])
+    f.error("tank.periodic", fmt::format("a heading of {}; a periodic tank has none", what), "remove the periodicity and give zones");
+  if (s.c.zones.generation_length == 0 || s.c.zones.absorption_length == 0)
+    f.error("zones", fmt::format("a heading of {}; those without a zone would send the wave back", what),
+            "give zones.generation_length_m and zones.absorption_length_m");
+  if (s.c.zones.absorption_target == Zones::Target::rest)
+    f.error("zones.absorption_target", fmt::format("rest with {} of {}; the wave runs along the zones that it leaves through", field, what),
+            "relax them towards the wave");
+}
+
 void check_heading(CheckState& s, const std::string& wave) {
   const Wave& w = s.c.wave;
   Findings& f = s.findings;
   const std::string field = wave + ".heading_deg";
   if (f.finite(field, w.heading)) {
-    const bool along_y = std::abs(std::cos(w.heading)) < 1e-6;
-    const bool along_x = std::abs(std::sin(w.heading)) < 1e-6;
-    s.wave_axis = along_x ? 0 : 1;
-    if (s.c.dim == 2 && !along_y)
+    s.wave_axis = std::abs(std::cos(w.heading)) > std::abs(std::sin(w.heading)) ? 0 : 1;
+    if (s.c.dim == 2 && std::abs(std::cos(w.heading)) > 1e-6)
       f.error(field,
               fmt::format("{:.6g} degrees; a section sees waves along y only: 90 or "
                           "-90",
                           w.heading / degree),
               "use 90 or -90");
-    if (s.c.dim == 3 && !along_x && !along_y)
-      f.error(field,
-              fmt::format("{:.6g} degrees; waves go along the tank's x or y axis in this version",
-                          w.heading / degree),
-              "use 0, 90, 180 or -90, or turn the ship by body.angles.yaw_deg");
+    else if (is_oblique(s.c)) check_oblique(s, field);
   }
 }
 
@@ -202,20 +210,28 @@ void check_zones(CheckState& s) {
   f.not_negative("zones.rate_per_s", z.rate);
   if (!numbers || !s.tank_ok) return;
   const double both = z.generation_length + z.absorption_length;
-  const int axis = s.wave_axis;
-  const bool periodic = s.c.tank.periodic[static_cast<std::size_t>(axis)];
-  const double tank_length = s.c.tank.upper[axis] - s.c.tank.lower[axis];
-  if (both > 0 && periodic)
-    f.error("zones",
-            fmt::format("zones of {} m in a tank that is periodic in {}; it has no ends", both,
-                        axis_names[axis]),
-            "remove the zones or the periodicity");
-  if (both >= tank_length)
-    f.error(
-        "zones.absorption_length_m",
-        fmt::format("generation and absorption take {:.4g} m together, the tank is {:.4g} m long",
-                    both, tank_length),
-        "shorten the zones or lengthen the tank");
+  const auto sides = tank_sides(s.c);
+  bool periodic = false;
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto& [lower, upper] = sides[static_cast<std::size_t>(axis)];
+    if (s.c.dim == 2 && axis == 0) continue;
+    if (axis != s.wave_axis && lower.zone + upper.zone == 0) continue;
+    const double tank_length = s.c.tank.upper[axis] - s.c.tank.lower[axis];
+    if (s.c.tank.periodic[static_cast<std::size_t>(axis)]) {
+      periodic = true;
+      if (both > 0)
+        f.error("zones",
+                fmt::format("zones of {} m in a tank that is periodic in {}; it has no ends", both,
+                            axis_names[axis]),
+                "remove the zones or the periodicity");
+    }
+    if (both >= tank_length)
+      f.error(
+          "zones.absorption_length_m",
+          fmt::format("generation and absorption take {:.4g} m together, the tank is {:.4g} m long",
+                      both, tank_length),
+          "shorten the zones or lengthen the tank");
+  }
   if (!s.wave_ok || periodic) return;
   if (z.generation_length == 0)
     f.warning("zones.generation_length_m",

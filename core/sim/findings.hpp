@@ -16,6 +16,8 @@
 
 namespace seaway::sim {
 
+inline constexpr const char* axis_names[3] = {"x", "y", "z"};
+
 class Findings {
  public:
   explicit Findings(std::vector<Diagnostic>& list) : list_(list) {}

@@ -23,8 +23,7 @@ constexpr double lost_courant = 32;
 }  // namespace
 
 template <int Dim>
-double Simulation<Dim>::end_flux(const FaceField<double, Dim>& swept) const {
-  const int axis = zones_->axis();
+double Simulation<Dim>::side_flux(int axis, const FaceField<double, Dim>& swept) const {
   double sum = 0;
   for (const int b : zones_->blocks()) {
     const auto& block = forest_->block(b);

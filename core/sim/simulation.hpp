@@ -159,7 +159,7 @@ class Simulation {
   void stress(double dt);
   void kick(double dt, StepReport& report);
   void plan_next_step(const StepReport& report);
-  double end_flux(const FaceField<double, Dim>& swept) const;
+  double side_flux(int axis, const FaceField<double, Dim>& swept) const;
 
   std::shared_ptr<const Model<Dim>> model_;
   std::unique_ptr<Forest<Dim>> forest_;

@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/field/restrict.hpp"
 #include "core/sim/simulation.hpp"
+#include "core/sim/tank_sides.hpp"
 #include "core/waves/water_fraction.hpp"
 
 namespace seaway::sim {
@@ -44,22 +45,18 @@ Simulation<Dim>::Simulation(std::shared_ptr<const Model<Dim>> model, std::unique
                                                   model_->walls, fixed);
   }
   if (c.zones.generation_length > 0 || c.zones.absorption_length > 0) {
-    // The wave comes in at the lower end unless it goes towards the negative axis.
-    int axis = 0;
-    bool from_lower = true;
-    if constexpr (Dim == 2) {
-      from_lower = std::sin(c.wave.heading) >= 0;
-    } else {
-      axis = std::abs(std::sin(c.wave.heading)) > std::abs(std::cos(c.wave.heading)) ? 1 : 0;
-      from_lower = (axis == 1 ? std::sin(c.wave.heading) : std::cos(c.wave.heading)) >= 0;
-    }
     const bool wave = model_->wave != nullptr;
-    flow::ZoneSpec in{c.zones.generation_length, wave};
-    flow::ZoneSpec out{c.zones.absorption_length, wave && c.zones.absorption_target == Zones::Target::wave};
-    if (!from_lower) std::swap(in, out);
+    const bool out_to_wave = wave && c.zones.absorption_target == Zones::Target::wave;
+    const auto sides = tank_sides(c);
+    flow::SideZones<Dim> zones;
+    for (std::size_t axis = 0; axis < zones.size(); ++axis)
+      for (std::size_t side = 0; side < 2; ++side) {
+        const TankSide& from = sides[axis + 3 - Dim][side];
+        zones[axis][side] = {from.zone, from.incoming ? wave : out_to_wave};
+      }
     double rate = c.zones.rate;
     if (rate <= 0) rate = model_->period > 0 ? 10 / model_->period : 6.0;
-    zones_ = std::make_unique<flow::WaveZones<Dim>>(*forest_, model_->wave, axis, in, out, rate);
+    zones_ = std::make_unique<flow::WaveZones<Dim>>(*forest_, model_->wave, zones, rate);
   }
   if (model_->turbulence.model != flow::TurbulenceSpec::Model::none) {
     turbulence_ = std::make_unique<flow::KEpsilon<Dim>>(*forest_, model_->fluids, model_->boundaries, model_->turbulence);
@@ -72,7 +69,7 @@ Simulation<Dim>::Simulation(std::shared_ptr<const Model<Dim>> model, std::unique
   body_.released = c.body.release == Body::Release::at_start;
   advection_.set_flux_visitor([this](int axis, const FaceField<double, Dim>& swept) {
     if (mask_) book_.add_fluxes(*mask_, axis, swept);
-    if (zones_ && axis == zones_->axis()) exchanged_ += end_flux(swept);
+    if (zones_ && zones_->drives(axis)) exchanged_ += side_flux(axis, swept);
   });
   clock_.charge("mesh");
 }

@@ -41,6 +41,8 @@ const std::vector<Case>& all_cases() {
       {"vortex_across_levels", Suite::quick, "a vortex carried through a patch of finer cells",
        run_vortex_across_levels},
       {"wave_across_levels", Suite::quick, "a wave over level jumps in its surface", run_wave_across_levels},
+      {"oblique_wave", Suite::full, "a wave across the corners of a tank with zones at all four sides",
+       run_oblique_wave},
       {"rotating_hull", Suite::quick, "an ellipse turning in a fluid at rest: added inertia, momentum, energy",
        run_rotating_hull},
       {"rolling_tank", Suite::quick, "water in a rolling tank, thick and thin walls: its moment against linear sloshing",

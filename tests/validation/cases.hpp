@@ -66,6 +66,7 @@ void run_zalesak_disk(const Context& context, Results& results);
 void run_sphere_deformation(const Context& context, Results& results);
 void run_vortex_across_levels(const Context& context, Results& results);
 void run_wave_across_levels(const Context& context, Results& results);
+void run_oblique_wave(const Context& context, Results& results);
 void run_rolling_tank(const Context& context, Results& results);
 void run_rotating_hull(const Context& context, Results& results);
 void run_rayleigh_taylor(const Context& context, Results& results);

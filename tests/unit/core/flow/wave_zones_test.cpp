@@ -32,9 +32,15 @@ Forest<2> tank() {
   });
 }
 
+SideZones<2> sides(const ZoneSpec& lower, const ZoneSpec& upper) {
+  SideZones<2> out;
+  out[0] = {lower, upper};
+  return out;
+}
+
 TEST(WaveZones, VofGoesTowardsTheWaveAndTheBookSaysByHowMuch) {
   const auto forest = tank();
-  const WaveZones<2> zones(forest, wave(), 0, {zone, true}, {zone, true}, rate);
+  const WaveZones<2> zones(forest, wave(), sides({zone, true}, {zone, true}), rate);
   FlowState<2> state(forest);
   fill_water<2>(
       forest, [](const Vec2&) { return 0.013; }, state);
@@ -60,20 +66,20 @@ TEST(WaveZones, ZonesOfRestChangeNoWater) {
   fill_water<2>(
       forest, [](const Vec2& x) { return 0.1 * x[0]; }, state);
   const auto before = state.vof;
-  const WaveZones<2> calm(forest, nullptr, 0, {zone, false}, {zone, false}, rate);
+  const WaveZones<2> calm(forest, nullptr, sides({zone, false}, {zone, false}), rate);
   EXPECT_EQ(calm.relax_vof(state.vof, 0, dt), 0);
-  EXPECT_FALSE(calm.drives(0));
-  const WaveZones<2> beach(forest, wave(), 0, {0, true}, {zone, false}, rate);
+  EXPECT_FALSE(calm.drives(0, 0));
+  const WaveZones<2> beach(forest, wave(), sides({0, true}, {zone, false}), rate);
   EXPECT_EQ(beach.relax_vof(state.vof, 0, dt), 0);
-  EXPECT_TRUE(beach.drives(0));
-  EXPECT_FALSE(beach.drives(1));
+  EXPECT_TRUE(beach.drives(0, 0));
+  EXPECT_FALSE(beach.drives(0, 1));
   EXPECT_EQ(state.vof.data(), before.data());
 }
 
 TEST(WaveZones, VelocityOfTheWaterGoesTowardsItsTargetAndAirIsLeftAlone) {
   const auto forest = tank();
   const auto w = wave();
-  const WaveZones<2> zones(forest, w, 0, {zone, true}, {zone, false}, rate);
+  const WaveZones<2> zones(forest, w, sides({zone, true}, {zone, false}), rate);
   FlowState<2> state(forest);
   fill_water<2>(
       forest, [](const Vec2&) { return 0.0; }, state);  // on a grid line
@@ -96,6 +102,55 @@ TEST(WaveZones, VelocityOfTheWaterGoesTowardsItsTargetAndAirIsLeftAlone) {
       const double expected = end ? water * target : (0.4 + r * target) / (1 + r);
       EXPECT_NEAR(face_of(state.u, axis, b, i), expected, 1e-10) << x.transpose();
     });
+}
+
+// Zones at all four sides of a tank of 3 x 3 x 3; where two overlap the deeper one counts.
+TEST(WaveZones, AnObliqueWaveHasZonesAtAllSides) {
+  mesh::TankGrid<3> grid;
+  grid.lower = {0, 0, -level};
+  grid.upper = {3, 3, level};
+  grid.root_blocks = {3, 3, 3};
+  const Forest<3> forest(grid, 0, [](const Vec3&, const Vec3&, int) { return false; });
+  waves::RegularWaveSpec spec;
+  spec.height = 0.2;
+  spec.length = 3;
+  spec.depth = 1.5;
+  spec.heading = 40 * pi / 180;
+  const std::shared_ptr<const waves::WaveField> w = waves::make_wave(spec);
+  SideZones<3> all;
+  all[0] = {ZoneSpec{zone, true}, ZoneSpec{0.5, true}};
+  all[1] = {ZoneSpec{zone, true}, ZoneSpec{0.5, true}};
+  const WaveZones<3> zones(forest, w, all, rate);
+  const auto depth_in = [](double x) { return std::max({0.0, (zone - x) / zone, (x - 2.5) / 0.5}); };
+  FlowState<3> state(forest);
+  fill_water<3>(
+      forest, [](const Vec3&) { return 0.013; }, state);
+  fill_faces<3>(
+      forest, [](const Vec3&, int) { return 0.4; }, state.u);
+  const auto before = state.vof;
+  const double t = 0.3;
+  zones.relax_velocity(state, t, dt);
+  int inside = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    each_face<3>(forest, axis, [&](int b, const IVec<3>& i) {
+      const Vec3 x = forest.block(b).face_centre(i, axis);
+      if (std::abs(x[2]) < 0.2) return;
+      const double water = x[2] < 0 ? 1.0 : 0.0;
+      const bool end = axis < 2 && (x[axis] < 1e-9 || x[axis] > 3 - 1e-9);
+      const double into = std::max(depth_in(x[0]), depth_in(x[1])), r = rate * into * into * dt * water;
+      inside += into > 0;
+      const double target = waves::velocity_at<3>(*w, x, t)[axis];
+      EXPECT_NEAR(face_of(state.u, axis, b, i), end ? water * target : (0.4 + r * target) / (1 + r), 1e-10) << x.transpose();
+    });
+  EXPECT_GT(inside, 10000);
+  zones.relax_vof(state.vof, t, dt);
+  each_cell<3>(forest, [&](int b, const IVec<3>& i) {
+    const auto& block = forest.block(b);
+    const Vec3 x = block.cell_centre(i), half = 0.5 * block.h;
+    const double into = std::max(depth_in(x[0]), depth_in(x[1]));
+    const double target = waves::water_fraction<3>(*w, x - half, x + half, t), c = cell_of(before, b, i);
+    EXPECT_NEAR(cell_of(state.vof, b, i), c + (1 - std::exp(-rate * into * into * dt)) * (target - c), 1e-12) << x.transpose();
+  });
 }
 
 }  // namespace

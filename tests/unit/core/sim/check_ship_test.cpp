@@ -101,6 +101,55 @@ TEST(CheckShip, FilesThatAreWrongAreNamed) {
   EXPECT_NE(find(check_case(c), "hull.stl")->message.find("unit"), std::string::npos);
 }
 
+/// A short wave across the corners of a large tank without a hull.
+Case oblique_wave() {
+  Case c = dtmb5415();
+  c.hull = {};
+  c.body = {};
+  c.stages.front().mesh.hull_cell = 0;
+  c.stages.front().mesh.surface = {{0.01, 0.1}};
+  c.wave.kind = Wave::Kind::regular;
+  c.wave.height = 0.06;
+  c.wave.period = 1.2;
+  c.wave.heading = 30 * degree;
+  c.zones.generation_length = 1.5;
+  c.zones.absorption_length = 2.4;
+  return c;
+}
+
+TEST(CheckShip, ObliqueWavesNeedZonesAtAllSides) {
+  const CaseReport fine = check_case(oblique_wave());
+  EXPECT_TRUE(fine.ok()) << (fine.diagnostics.empty() ? "" : fine.diagnostics.front().field + ": " + fine.diagnostics.front().message);
+  Case plain = oblique_wave();
+  plain.zones.generation_length = 0;
+  ASSERT_NE(find(check_case(plain), "zones"), nullptr);
+  EXPECT_NE(find(check_case(plain), "zones")->message.find("30 degrees"), std::string::npos);
+  Case periodic = oblique_wave();
+  periodic.tank.periodic[0] = true;
+  EXPECT_NE(find(check_case(periodic), "tank.periodic"), nullptr);
+  Case beach = oblique_wave();
+  beach.zones.absorption_target = Zones::Target::rest;
+  EXPECT_NE(find(check_case(beach), "zones.absorption_target"), nullptr);
+  Case narrow = oblique_wave();  // across the main direction as well
+  narrow.tank.lower.y() = -1.9;
+  narrow.tank.upper.y() = 1.9;
+  EXPECT_NE(find(check_case(narrow), "zones.absorption_length_m"), nullptr);
+}
+
+TEST(CheckShip, NoSideOfTheShipStandsInAZone) {
+  Case c = dtmb5415();
+  c.wave = oblique_wave().wave;
+  c.zones.generation_length = 1.5;
+  c.zones.absorption_length = 2.4;  // 1.6 m free from the middle on; the bow is at 1.56 m
+  EXPECT_EQ(find(check_case(c), "zones"), nullptr);
+  c.wave.heading = 90 * degree;
+  c.body.offset.x() = 0.2;
+  EXPECT_EQ(find(check_case(c), "zones"), nullptr);  // no zones along the ship
+  c.wave.heading = 30 * degree;
+  ASSERT_NE(find(check_case(c), "zones"), nullptr);
+  EXPECT_NE(find(check_case(c), "zones")->message.find(" in x "), std::string::npos);
+}
+
 TEST(CheckShip, CompartmentsAreChecked) {
   Case c = dtmb5415();
   c.hull.compartments = {hold()};
