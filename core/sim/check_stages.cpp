@@ -121,13 +121,20 @@ void check_walls(CheckState& s) {
                                    width / cells_per_compartment * coarsest / cell));
     }
   }
-  if (!s.c.hull.compartments.empty() && has_thin_walls(s.c))
-    s.findings.warning(
-        "hull.compartments",
-        fmt::format("some wall is thinner than {} cells of {:.4g} m at the hull in stage {} ('{}'); walls are held by "
-                    "connected spaces instead of cells, in all stages",
-                    cells_per_wall, coarsest, stage, s.c.stages[stage].name),
-        "nothing to do; with thicker walls or finer cells the pressure at the walls is smoother");
+  if (s.c.hull.compartments.empty() || !has_thin_walls(s.c)) return;
+  for (std::size_t i = 0; i < s.c.hull.compartments.size(); ++i)
+    if (!s.c.hull.compartments[i].flooded)
+      s.findings.warning(fmt::format("hull.compartments[{}]", i),
+                         fmt::format("starts dry, behind walls thinner than {} cells; with water on one side alone the force on such a "
+                                     "wall can be far off",
+                                     cells_per_wall),
+                         "give thicker walls or finer cells; leave out a compartment that stays dry, the hull is solid there");
+  s.findings.warning(
+      "hull.compartments",
+      fmt::format("some wall is thinner than {} cells of {:.4g} m at the hull in stage {} ('{}'); walls are held by "
+                  "connected spaces instead of cells, in all stages",
+                  cells_per_wall, coarsest, stage, s.c.stages[stage].name),
+      "nothing to do; with thicker walls or finer cells the pressure at the walls is smoother");
 }
 
 /// Cell at the calm level where the hull (or the origin) is.

@@ -104,6 +104,12 @@ const Fault faults[] = {
     {"ZeroScale", [](Case& c) { c.hull.scale = 0; }, "hull.offsets_section.scale", "0"},
     {"ThinWall", [](Case& c) { c.hull.compartments[1].wall_thickness = 0.015; },
      "hull.compartments", "thinner than 2 cells of 0.01 m", warning},
+    {"DryBehindThinWalls",
+     [](Case& c) {
+       c.hull.compartments[1].wall_thickness = 0.015;
+       c.hull.compartments[1].flooded = false;
+     },
+     "hull.compartments[1]", "starts dry, behind walls thinner than 2 cells", warning},
     {"CoarseHullCell", [](Case& c) { c.stages[0].mesh.hull_cell = 0.02; },
      "hull.compartments", "2 cells of 0.02 m", warning},
     {"NarrowCompartment", [](Case& c) { c.stages[0].mesh.hull_cell = 0.04; },
