@@ -60,6 +60,10 @@ std::vector<Line> requests(const Settings& settings);
 
 /// CPU that a process has used [s].
 double cpu_seconds(pid_t pid);
+/// Files that a process has open.
+int descriptors(pid_t pid);
+/// kill -9 of a worker that runs now on this data folder; false if there is none.
+bool kill_worker(const std::string& data);
 /// The case file as a request with a new id, with the table that it names.
 v1::CreateJobRequest request_of(const std::string& case_file);
 /// Options of seawayd for these settings, as a file in `folder`.

@@ -2,13 +2,9 @@
 // kill: kill -9 of seawayd and of its workers at random moments of runs, while others submit, cancel and wait in the
 // queue. What was acknowledged and what a client has received must survive, and the final history must be that of
 // an unbroken run.
-#include <signal.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 #include <random>
 #include <thread>
@@ -34,18 +30,6 @@ std::int64_t lost_lines(const std::string& seen, const std::string& stored) {
     b = b_end == std::string::npos ? stored.size() : b_end + 1;
   }
   return lost;
-}
-
-/// kill -9 of a worker that runs now; false if there is none.
-bool kill_worker(const std::string& data) {
-  for (const auto& lease : std::filesystem::directory_iterator(data + "/leases")) {
-    pid_t pid = 0;
-    std::ifstream(lease.path()) >> pid;
-    // The number may be of a worker that has just gone, but not of anything else: it is checked by its name.
-    const std::string name = testing::read_text("/proc/" + std::to_string(pid) + "/cmdline");
-    if (pid > 1 && name.find("attempt") != std::string::npos) return ::kill(pid, SIGKILL) == 0;
-  }
-  return false;
 }
 
 /// A submit whose answer may be lost: only an acknowledged one counts.
