@@ -99,7 +99,7 @@ ChildProcess::ChildProcess(const std::string& program, const std::string& order,
   char* arguments[] = {name.data(), command.data(), nullptr};
   if (const int why = ::posix_spawn(&pid_, program.c_str(), &setup.files, &setup.attributes, arguments, environ); why != 0) {
     pid_ = 0;
-    fail(ErrorCode::unavailable, "{} cannot be started: {}", program, std::strerror(why));
+    throw NotStarted(fmt::format("{} cannot be started: {}", program, std::strerror(why)));
   }
 }
 

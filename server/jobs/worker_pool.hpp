@@ -3,6 +3,7 @@
 // by what came of it. Safe from any thread.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <map>
 #include <memory>
@@ -60,6 +61,7 @@ class WorkerPool {
     std::stop_source stop, kill;
   };
   std::map<std::string, Running> running_;             // guarded by mutex_
+  std::atomic<int> shortages_{0};                      // attempts in a row for which the machine had nothing
   std::vector<std::jthread> threads_;
 };
 
