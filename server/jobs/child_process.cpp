@@ -52,10 +52,11 @@ struct SpawnSetup {
   SpawnSetup() {
     posix_spawn_file_actions_init(&files);
     posix_spawnattr_init(&attributes);
-    sigset_t none, all;
-    sigemptyset(&none);
+    sigset_t blocked, all;
+    sigemptyset(&blocked);
     sigfillset(&all);
-    posix_spawnattr_setsigmask(&attributes, &none);
+    sigaddset(&blocked, SIGTERM);  // a request to stop waits until the worker can hear it
+    posix_spawnattr_setsigmask(&attributes, &blocked);
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setpgroup(&attributes, 0);  // what a terminal sends to the server is not for it
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);

@@ -262,6 +262,8 @@ RunResult Supervision::result() {
                                                          "checkpoint is kept", seconds(settings_.limits.wall))};
   const bool killed = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
   if (verdict_ == Verdict::stop && killed) return {End::stopped, Reason::none, "it did not stop in time and was killed"};
+  if (verdict_ == Verdict::stop && WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM)
+    return {End::stopped, Reason::none, "it was stopped without a checkpoint"};
   if (WIFEXITED(status) && WEXITSTATUS(status) == Worker::exit_no_memory)
     return fault(Reason::memory, "the worker got no more memory; use larger cells or raise workers.memory_mb");
   if (WIFEXITED(status) && WEXITSTATUS(status) == Worker::exit_no_disk)

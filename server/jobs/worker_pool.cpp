@@ -13,7 +13,9 @@ using store::State;
 
 WorkerPool::WorkerPool(PoolSettings settings, Executor& executor, const Workspace& workspace, store::JobStore& store,
                        std::shared_ptr<spdlog::logger> log)
-    : settings_(settings), executor_(executor), workspace_(workspace), store_(store), log_(std::move(log)) {
+    : settings_(settings), executor_(executor), workspace_(workspace), store_(store), log_(std::move(log)) {}
+
+void WorkerPool::start() {
   for (int i = 0; i < settings_.workers; ++i) threads_.emplace_back([this] { work(); });
 }
 

@@ -25,12 +25,14 @@ struct PoolSettings {
 
 class WorkerPool {
  public:
-  /// All that is given by reference must outlive the pool.
+  /// All that is given by reference must outlive the pool. Nothing runs before start().
   WorkerPool(PoolSettings settings, Executor& executor, const Workspace& workspace, store::JobStore& store,
              std::shared_ptr<spdlog::logger> log);
   /// Drains.
   ~WorkerPool();
 
+  /// Once: begins to take jobs.
+  void start();
   /// There may be a queued job.
   void wake();
   /// Asks the run to end at its next step; nothing happens if it is not running here.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The Debian package on a clean Debian 12 that is booted: installed, run in the sandbox of its unit, restarted, crashed,
-# reached through nginx, upgraded, removed, installed again, purged.
+# kept from its start, reached through nginx, upgraded, removed, installed again, purged.
 #   clean_debian_test.sh BUILD_FOLDER
 # Needs root, mmdebstrap and a Debian mirror; exit code 77 (skipped) without them.
 set -euo pipefail
@@ -52,6 +52,7 @@ answers() { inside seaway list; }
 samples() { inside seaway show latest | awk '$1 == "samples" {print $2}'; }
 more_than() { (("$(samples)" > $1)); }
 main_pid() { inside systemctl show -p MainPID --value seawayd; }
+enough_restarts() { (("$(inside systemctl show -p NRestarts --value seawayd)" >= 7)); }
 another_than() { [[ "$(main_pid)" != "$1" ]] && answers; }
 
 echo "== install"
@@ -63,7 +64,7 @@ within 120 "no sample came" more_than 0
 
 echo "== restart, crash of the server"
 inside systemctl restart seawayd
-within 30 "it does not answer after a restart" answers
+answers || fail "it does not answer after a restart"
 kept="$(samples)"
 within 120 "it does not go on after a restart" more_than "$kept"
 before="$(main_pid)"
@@ -71,6 +72,24 @@ inside systemctl kill -s KILL --kill-who=main seawayd
 within 30 "systemd did not start it again" another_than "$before"
 kept="$(samples)"
 within 120 "it does not go on after a crash" more_than "$kept"
+
+echo "== a start that fails: for want of the port as long as it takes, with a wrong configuration once"
+inside systemctl stop seawayd
+echo 'server { listen 127.0.0.1:7411; }' >"$root/etc/nginx/conf.d/in_the_way.conf"
+inside systemctl restart nginx
+inside systemctl start --no-block seawayd
+within 60 "systemd gave up" enough_restarts
+rm "$root/etc/nginx/conf.d/in_the_way.conf"
+inside systemctl restart nginx
+within 30 "it did not come back by itself" answers
+inside sed -i 's/^workers:/wrokers:/' /etc/seaway/seawayd.yaml
+! inside systemctl restart seawayd 2>/dev/null || fail "it started with a wrong configuration"
+sleep 3
+[[ "$(inside systemctl show -p ActiveState --value seawayd)" == failed ]] || fail "a wrong configuration is tried again"
+inside journalctl --no-pager -u seawayd | grep -q 'wrokers' || fail "the journal does not name the wrong key"
+inside sed -i 's/^wrokers:/workers:/' /etc/seaway/seawayd.yaml
+inside systemctl restart seawayd || fail "systemctl restart"
+answers || fail "it is called up before it answers"
 
 echo "== through nginx"
 inside sh -c 'mkdir -p /etc/ssl/seaway && cd /etc/ssl/seaway && openssl req -x509 -newkey rsa:2048 -nodes -keyout key.pem -out fullchain.pem \

@@ -208,6 +208,12 @@ TEST_F(Programs, CommandsOfTheJobLife) {
   const Finished backup = run_program({build + "/tests/seaway_fake_daemon", "--data-dir", data, "backup", folder_ / "copy.db"});
   EXPECT_EQ(backup.code, 0) << backup.output;
   EXPECT_THAT(backup.output, HasSubstr("4 jobs"));
+  const Finished audit = run_program({build + "/tests/seaway_fake_daemon", "--data-dir", data, "audit", "-n", "200"});
+  EXPECT_EQ(audit.code, 0) << audit.output;
+  EXPECT_THAT(audit.output, ::testing::ContainsRegex("local +ipv4:127.0.0.1:[0-9]+ +KillJob +OK +jobs/"));
+  EXPECT_LT(audit.output.find("CreateJob"), audit.output.find("SetLogLevel")) << "oldest first";
+  EXPECT_EQ(run_program({build + "/tests/seaway_fake_daemon", "--data-dir", data, "audit", "--denied"}).output, "");
+  EXPECT_EQ(run_program({build + "/tests/seaway_fake_daemon", "--data-dir", folder_ / "nowhere", "audit"}).code, 1);
   EXPECT_EQ(daemon_->terminate(), 0);
   const Finished verify = run_program({build + "/tests/seaway_fake_daemon", "--data-dir", data, "verify"});
   EXPECT_EQ(verify.code, 0) << verify.output;

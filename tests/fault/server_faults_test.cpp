@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -170,6 +174,29 @@ TEST_F(F16, ALinkPlantedInARunsFolderIsNotFollowed) {
   EXPECT_EQ(read_text(outside), "as it was");
 }
 
+TEST_F(F20, TheManagerIsToldWhenItAnswersAndWhenItStops) {
+  const std::string name = folder_ / "notify";
+  const int manager = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  ASSERT_LT(name.size(), sizeof address.sun_path);
+  std::strcpy(address.sun_path, name.c_str());
+  ASSERT_EQ(::bind(manager, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  const timeval patience{30, 0};
+  ::setsockopt(manager, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  const auto told = [&] {
+    char text[64];
+    const ssize_t n = ::recv(manager, text, sizeof text, 0);
+    return std::string(text, static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  };
+  start({"NOTIFY_SOCKET=" + name});
+  EXPECT_EQ(told(), "READY=1");
+  EXPECT_EQ(client_->list({}).jobs_size(), 0);
+  EXPECT_EQ(daemon_->terminate(), 0);
+  EXPECT_EQ(told(), "STOPPING=1");
+  ::close(manager);
+}
+
 TEST_F(F20, ASecondSignalChangesNothing) {
   start();
   const std::string name = submit();
@@ -199,6 +226,42 @@ TEST_F(F20, ASignalAtTheStartOrInTheRecoveryIsHeard) {
   daemon_->start();
   EXPECT_TRUE(reaches(name, v1::Job::STATE_SUCCEEDED));
   EXPECT_EQ(client_->get(name).latest_sequence(), 600);
+}
+
+TEST_F(F20, AStopRightAfterTheStartIsNoFaultOfTheJob) {
+  start();
+  const std::string name = submit();
+  EXPECT_EQ(daemon_->terminate(), 0);
+  for (int ms = 0; ms < 24; ms += 2) {  // the worker is started, or has just begun
+    daemon_->start();
+    std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+    EXPECT_EQ(daemon_->terminate(), 0);
+  }
+  daemon_->start();
+  EXPECT_TRUE(reaches(name, v1::Job::STATE_SUCCEEDED));
+  const v1::Job job = client_->get(name, v1::JOB_VIEW_FULL);
+  EXPECT_EQ(job.latest_sequence(), 600);
+  for (const auto& event : job.events()) EXPECT_THAT(event.text(), ::testing::Not(HasSubstr("WORKER_CRASH")));
+}
+
+TEST_F(F20, AServerThatCannotListenTakesNoJob) {
+  start();
+  const std::string name = submit();
+  while (client_->get(name).latest_sequence() < 50) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  daemon_->kill();
+  TempFolder elsewhere;
+  Daemon in_the_way(SEAWAY_BUILD_DIR "/tests/seaway_fake_daemon", elsewhere.path());
+  in_the_way.start();
+  const std::string port = in_the_way.address().substr(in_the_way.address().rfind(':') + 1);
+  for (int i = 0; i < 4; ++i) {
+    const Finished late = run_program({SEAWAY_BUILD_DIR "/tests/seaway_fake_daemon", "--config", folder_ / "config.yaml", "--data-dir",
+                                       folder_ / "data", "--port", port});
+    EXPECT_EQ(late.code, 1);
+    EXPECT_THAT(late.output, HasSubstr("is another server running there?"));
+  }
+  daemon_->start();
+  EXPECT_TRUE(reaches(name, v1::Job::STATE_SUCCEEDED));
+  EXPECT_EQ(client_->get(name).attempt(), 2);
 }
 
 TEST_F(F21, WithoutDescriptorsCallsFailOrWaitAndTheServerLives) {
