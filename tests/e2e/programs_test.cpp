@@ -62,7 +62,8 @@ TEST_F(Programs, SubmitWatchAndAllResults) {
   EXPECT_TRUE(nlohmann::json::parse(read_text(folder_ / "s.json")).contains("hull"));
   const Finished plot = seaway({"plot", "-o", folder_ / "pictures", "--json"});
   ASSERT_EQ(plot.code, 0) << plot.output;
-  for (const auto& file : nlohmann::json::parse(plot.output)["files"]) EXPECT_GT(fs::file_size(file.get<std::string>()), 10000u);
+  const auto plotted = nlohmann::json::parse(plot.output);  // alive over the loop
+  for (const auto& file : plotted["files"]) EXPECT_GT(fs::file_size(file.get<std::string>()), 10000u);
   EXPECT_EQ(seaway({"watch", "--json"}).code, 0);
   EXPECT_EQ(daemon_->terminate(), 0);
 }

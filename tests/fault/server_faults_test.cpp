@@ -275,9 +275,9 @@ TEST_F(F20, ASignalAtTheStartOrInTheRecoveryIsHeard) {
   for (const int ms : {0, 2, 5, 10, 20, 40, 80, 160}) {
     Process early({SEAWAY_BUILD_DIR "/tests/seaway_fake_daemon", "--config", folder_ / "config.yaml", "--data-dir", folder_ / "data", "--port", "0"},
                   folder_ / "early.txt");
-    std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+    std::this_thread::sleep_for(std::chrono::milliseconds(ms * SEAWAY_SLOWDOWN));
     early.signal(SIGTERM);
-    const int code = early.wait_for(seconds(10));
+    const int code = early.wait_for(seconds(10 * SEAWAY_SLOWDOWN));
     // Before the program has come to itself the signal ends it as any other.
     EXPECT_TRUE(code == 0 || (ms < 40 && code == 128 + SIGTERM)) << code << " after " << ms << " ms\n" << read_text(folder_ / "early.txt");
   }
@@ -323,6 +323,9 @@ TEST_F(F20, AServerThatCannotListenTakesNoJob) {
 }
 
 TEST_F(F21, WithoutDescriptorsCallsFailOrWaitAndTheServerLives) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "UBSan looks whether an address can be read with a pipe of its own, and takes its want for a wrong object";
+#endif
   start();
   const pid_t server = daemon_->process().pid();
   const std::string first = submit();

@@ -26,6 +26,7 @@ struct Settings {
   double checkpoint_interval_s = 5;
   unsigned seed = 1;
   bool json = false;
+  bool no_memory_bars = false;  ///< memory is shown, and no bar: for programs with a sanitizer
 };
 
 /// One line of the result; `pass` is value <= reference, or >= with at_least.

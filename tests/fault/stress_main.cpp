@@ -139,6 +139,7 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", s.seconds, "longest time to watch a run")->capture_default_str();
   app.add_option("--checkpoint-interval", s.checkpoint_interval_s, "seconds")->capture_default_str();
   app.add_option("--seed", s.seed, "of the random moments; 0: a new one");
+  app.add_flag("--no-memory-bars", s.no_memory_bars, "show memory without a bar: for programs with a sanitizer");
   app.add_flag("--json", s.json, "one JSON object a line");
   CLI11_PARSE(app, argc, argv);
   if (show_names) {
@@ -153,7 +154,8 @@ int main(int argc, char** argv) {
       throw std::runtime_error("give names and --case; see --help");
     for (const std::string& name : names) {
       if (all.count(name) == 0) throw std::runtime_error(name + " is unknown; see --list");
-      for (const Line& line : all.at(name)(s)) {
+      for (Line& line : all.at(name)(s)) {
+        line.beside = line.beside || (s.no_memory_bars && line.unit == "MB");
         print(line, s.json);
         pass = pass && line.pass();
       }
