@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "client/job_client.hpp"
 #include "tests/support/process.hpp"
@@ -165,8 +166,8 @@ TEST_F(Programs, StopUnderLoadIsQuickAndLosesNothing) {
   Process watcher({build + "/bin/seaway", "--server", daemon_->address(), "watch"}, folder_ / "watch.txt");
   client::JobClient client(daemon_->address());
   const std::string name = client.resolve("latest");
-  while (client.get(name).latest_sequence() < 50) {
-  }
+  // The watcher has begun as well: one that meets no server at its start gives up.
+  while (client.get(name).latest_sequence() < 50 || read_text(folder_ / "watch.txt").empty()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   const auto began = std::chrono::steady_clock::now();
   EXPECT_EQ(daemon_->terminate(), 0);
   EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(10)) << read_text(folder_ / "log.txt");
@@ -178,7 +179,7 @@ TEST_F(Programs, StopUnderLoadIsQuickAndLosesNothing) {
 }
 
 TEST_F(Programs, CommandsOfTheJobLife) {
-  start({"SEAWAY_FAKE_STEP_US=1000"});
+  start({"SEAWAY_FAKE_STEP_US=" + std::to_string(2000 * SEAWAY_SLOWDOWN)});  // the first job runs longer than its commands take
   ASSERT_EQ(seaway({"submit", small}).code, 0);
   ASSERT_EQ(seaway({"submit", "--hold", "--label", "ship=dtmb", "--note", "later", "--priority", "3", small}).code, 0);
   EXPECT_THAT(seaway({"list", "--state", "held", "--label", "ship=dtmb"}).output, HasSubstr("held"));
