@@ -21,6 +21,7 @@
 #include "server/http/metrics_listener.hpp"
 #include "server/maintenance.hpp"
 #include "server/metrics/metrics.hpp"
+#include "server/readiness.hpp"
 
 namespace seaway::server {
 namespace {
@@ -171,11 +172,14 @@ void serve(Settings settings, const std::string& address_file, const jobs::Solve
                      [&] { return metrics.text(levels_now(settings, *store, server)); });
     log->info("event=metrics address={}", listener->address());
   }
+  pool.start();  // not before it listens: a server that cannot start takes no job
   if (!address_file.empty()) write_address(address_file, server.address());
   log->info("event=listening address={} data_dir={} executor={} workers={} threads={} version={}", server.address(),
             settings.data_dir, settings.processes ? "process" : "thread", settings.pool.workers,
             settings.worker.run.threads, code_version());
+  notify_manager("READY=1");
   const int signal = wait_for_signal();
+  notify_manager("STOPPING=1");
   log->info("event=stopping signal={}", signal);
   const std::jthread clock = watch_the_clock(log);
   listener.reset();
@@ -215,6 +219,11 @@ int run_daemon(int argc, char** argv, const jobs::Solver& solver, bool processes
   CLI::App* backing_up = app.add_subcommand("backup", "copy the database to a new file, also while a server runs");
   backing_up->add_option("FILE", backup_file, "must not exist")->required();
   CLI::App* verifying = app.add_subcommand("verify", "read the whole database and say what is wrong with it");
+  int audit_rows = 100;
+  bool only_denied = false;
+  CLI::App* auditing = app.add_subcommand("audit", "who has changed what, and who was turned away");
+  auditing->add_option("-n,--limit", audit_rows, "the last so many")->check(CLI::Range(1, 1'000'000))->capture_default_str();
+  auditing->add_flag("--denied", only_denied, "only calls that were denied");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -225,6 +234,7 @@ int run_daemon(int argc, char** argv, const jobs::Solver& solver, bool processes
     const Settings settings = load_settings(flags);
     if (backing_up->parsed()) return backup(settings.data_dir, backup_file);
     if (verifying->parsed()) return verify(settings.data_dir);
+    if (auditing->parsed()) return audit(settings.data_dir, audit_rows, only_denied);
     const auto log = make_log(settings);
     try {
       serve(settings, address_file, solver, log);

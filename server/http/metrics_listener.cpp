@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "server/http/metrics_listener.hpp"
 
+#include <arpa/inet.h>
 #include <httplib.h>
 #include <sys/socket.h>
 
@@ -13,7 +14,9 @@ namespace seaway::http {
 namespace {
 
 bool is_loopback(const std::string& address) {
-  return address == "localhost" || address == "::1" || address.starts_with("127.");
+  in_addr number{};  // a name that begins with 127 may stand for any machine
+  const bool loopback = ::inet_pton(AF_INET, address.c_str(), &number) == 1 && (ntohl(number.s_addr) >> 24) == 127;
+  return loopback || address == "localhost" || address == "::1";
 }
 
 }  // namespace

@@ -52,10 +52,11 @@ struct SpawnSetup {
   SpawnSetup() {
     posix_spawn_file_actions_init(&files);
     posix_spawnattr_init(&attributes);
-    sigset_t none, all;
-    sigemptyset(&none);
+    sigset_t blocked, all;
+    sigemptyset(&blocked);
     sigfillset(&all);
-    posix_spawnattr_setsigmask(&attributes, &none);
+    sigaddset(&blocked, SIGTERM);  // a request to stop waits until the worker can hear it
+    posix_spawnattr_setsigmask(&attributes, &blocked);
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setpgroup(&attributes, 0);  // what a terminal sends to the server is not for it
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
@@ -99,7 +100,7 @@ ChildProcess::ChildProcess(const std::string& program, const std::string& order,
   char* arguments[] = {name.data(), command.data(), nullptr};
   if (const int why = ::posix_spawn(&pid_, program.c_str(), &setup.files, &setup.attributes, arguments, environ); why != 0) {
     pid_ = 0;
-    fail(ErrorCode::unavailable, "{} cannot be started: {}", program, std::strerror(why));
+    throw NotStarted(fmt::format("{} cannot be started: {}", program, std::strerror(why)));
   }
 }
 

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "core/base/error.hpp"
+
 namespace seaway::jobs {
 
 /// A descriptor that closes itself.
@@ -25,10 +27,16 @@ class Descriptor {
   int fd_;
 };
 
+/// The program of the workers cannot be started: it is not there, or not any more.
+class NotStarted : public Error {
+ public:
+  explicit NotStarted(const std::string& message) : Error(ErrorCode::unavailable, message) {}
+};
+
 class ChildProcess {
  public:
   /// Starts `program attempt` with the order on descriptor 0, the lease on 4, records on 3, and the end of
-  /// stderr kept here. Throws Error(unavailable) if it cannot be started.
+  /// stderr kept here. Throws NotStarted, or Error(unavailable) if there is no descriptor or memory for it.
   ChildProcess(const std::string& program, const std::string& order, const Descriptor& lease);
   /// Kills it if it runs.
   ~ChildProcess();

@@ -28,6 +28,8 @@ class ProcessExecutor final : public Executor {
     RunResult out;
     try {
       out = Supervision(settings_, workspace_, store_, log_, job).run(control);
+    } catch (const NotStarted& error) {
+      out = {RunResult::End::fault, store::Reason::executor_lost, error.what(), true};
     } catch (const std::exception& error) {
       const auto reason = says_no_space(error.what()) ? store::Reason::disk_full : store::Reason::executor_lost;
       out = {RunResult::End::fault, reason, error.what(), says_no_resources(error.what())};

@@ -31,7 +31,8 @@ struct RunResult {
   End end = End::failed;
   store::Reason reason = store::Reason::none;  ///< failed, fault
   std::string message;
-  /// With `fault`: the machine had nothing left for it. Neither worker nor case is to blame, and it does not count.
+  /// With `fault`: the machine had nothing left for it, or has no program for it (it is being upgraded). Neither worker nor
+  /// case is to blame, and it does not count.
   bool shortage = false;
 };
 

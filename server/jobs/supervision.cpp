@@ -262,10 +262,14 @@ RunResult Supervision::result() {
                                                          "checkpoint is kept", seconds(settings_.limits.wall))};
   const bool killed = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
   if (verdict_ == Verdict::stop && killed) return {End::stopped, Reason::none, "it did not stop in time and was killed"};
+  if (verdict_ == Verdict::stop && WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM)
+    return {End::stopped, Reason::none, "it was stopped without a checkpoint"};
   if (WIFEXITED(status) && WEXITSTATUS(status) == Worker::exit_no_memory)
     return fault(Reason::memory, "the worker got no more memory; use larger cells or raise workers.memory_mb");
   if (WIFEXITED(status) && WEXITSTATUS(status) == Worker::exit_no_disk)
     return fault(Reason::disk_full, "the lease cannot be written");
+  if (WIFEXITED(status) && WEXITSTATUS(status) == Worker::exit_other_version)
+    return {End::fault, Reason::executor_lost, settings_.program + " is of another version than this server; restart the server", true};
   if (killed) return fault(Reason::worker_crash, "the worker was killed (SIGKILL), perhaps by the system for lack of memory");
   if (WIFSIGNALED(status))
     return fault(Reason::worker_crash, fmt::format("the worker ended by SIG{} ({})", ::sigabbrev_np(WTERMSIG(status)),

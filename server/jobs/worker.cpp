@@ -150,7 +150,7 @@ worker::Order read_order() {
   worker::Order order;
   if (bytes.empty() || !order.ParseFromString(bytes) || ::fcntl(Worker::record_fd, F_GETFD) < 0)
     give_up("this is how seawayd starts its workers; use seaway-run CASE");
-  if (order.code_version() != code_version()) give_up("this program is of another version than seawayd; restart seawayd");
+  if (order.code_version() != code_version()) ::_exit(Worker::exit_other_version);
   return order;
 }
 

@@ -20,8 +20,8 @@ class Worker {
   int run(const Solver& solver);
 
   static constexpr int order_fd = 0, record_fd = 3, lease_fd = 4;
-  /// Exit codes of a worker that got no memory, or could not write its lease.
-  static constexpr int exit_no_memory = 77, exit_no_disk = 78;
+  /// Exit codes of a worker that got no memory, could not write its lease, or is of another version than the server.
+  static constexpr int exit_no_memory = 77, exit_no_disk = 78, exit_other_version = 79;
 
  private:
   struct State;

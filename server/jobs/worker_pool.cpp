@@ -13,7 +13,9 @@ using store::State;
 
 WorkerPool::WorkerPool(PoolSettings settings, Executor& executor, const Workspace& workspace, store::JobStore& store,
                        std::shared_ptr<spdlog::logger> log)
-    : settings_(settings), executor_(executor), workspace_(workspace), store_(store), log_(std::move(log)) {
+    : settings_(settings), executor_(executor), workspace_(workspace), store_(store), log_(std::move(log)) {}
+
+void WorkerPool::start() {
   for (int i = 0; i < settings_.workers; ++i) threads_.emplace_back([this] { work(); });
 }
 
@@ -117,11 +119,14 @@ bool WorkerPool::try_end(const std::string& uid, const RunResult& result) {
             "job={} event={} state={} reason={} faults={} samples={} text=\"{}\"", uid, fault ? "fault" : "ended",
             store::to_string(job->state), store::to_string(job->reason), job->faults, job->last_sequence, job->message);
   if (fault && job->state == State::queued && settings_.metrics != nullptr) settings_.metrics->recovered(1);
+  if (!result.shortage) shortages_ = 0;
   if (full) {
     wait_for_space();
   } else if (result.shortage) {
+    // Soon, and less often if it lasts: each attempt leaves its events in the database.
+    const int pause_s = shortages_++ < 10 ? 1 : 10;
     std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, std::chrono::seconds(1), [&] { return draining_; });
+    wake_.wait_for(lock, std::chrono::seconds(pause_s), [&] { return draining_; });
   }
   if (job->state == State::queued) wake();
   return true;

@@ -3,6 +3,7 @@
 // by what came of it. Safe from any thread.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <map>
 #include <memory>
@@ -24,12 +25,14 @@ struct PoolSettings {
 
 class WorkerPool {
  public:
-  /// All that is given by reference must outlive the pool.
+  /// All that is given by reference must outlive the pool. Nothing runs before start().
   WorkerPool(PoolSettings settings, Executor& executor, const Workspace& workspace, store::JobStore& store,
              std::shared_ptr<spdlog::logger> log);
   /// Drains.
   ~WorkerPool();
 
+  /// Once: begins to take jobs.
+  void start();
   /// There may be a queued job.
   void wake();
   /// Asks the run to end at its next step; nothing happens if it is not running here.
@@ -60,6 +63,7 @@ class WorkerPool {
     std::stop_source stop, kill;
   };
   std::map<std::string, Running> running_;             // guarded by mutex_
+  std::atomic<int> shortages_{0};                      // attempts in a row for which the machine had nothing
   std::vector<std::jthread> threads_;
 };
 

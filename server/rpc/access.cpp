@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "server/rpc/access.hpp"
 
+#include <arpa/inet.h>
 #include <grpcpp/security/tls_certificate_provider.h>
 #include <grpcpp/security/tls_credentials_options.h>
 
@@ -15,8 +16,9 @@ namespace seaway::rpc {
 namespace {
 
 bool is_local(const std::string& address) {
-  return address == "localhost" || address == "::1" || address == "[::1]" || address.starts_with("127.") ||
-         address.starts_with("unix:");
+  in_addr number{};  // a name that begins with 127 may stand for any machine
+  const bool loopback = ::inet_pton(AF_INET, address.c_str(), &number) == 1 && (ntohl(number.s_addr) >> 24) == 127;
+  return loopback || address == "localhost" || address == "::1" || address == "[::1]" || address.starts_with("unix:");
 }
 
 std::string read_pem(const std::string& field, const std::string& file) {

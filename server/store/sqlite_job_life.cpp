@@ -101,10 +101,11 @@ void add_audit(Database& db, const AuditRow& row, std::int64_t now) {
       .run();
 }
 
-std::vector<AuditRow> audit(Database& db, int limit) {
+std::vector<AuditRow> audit(Database& db, int limit, bool only_denied) {
   std::vector<AuditRow> out;
-  Statement query = db.prepare("SELECT principal, peer, method, target, outcome, time_ns FROM audit ORDER BY id DESC LIMIT ?");
-  query.bind(limit);
+  Statement query = db.prepare("SELECT principal, peer, method, target, outcome, time_ns FROM audit "
+                               "WHERE ?1 = 0 OR outcome = 'DENIED' ORDER BY id DESC LIMIT ?2");
+  query.bind(only_denied ? 1 : 0, limit);
   while (query.step())
     out.push_back({query.text(0), query.text(1), query.text(2), query.text(3), query.text(4), query.integer(5)});
   return out;

@@ -34,7 +34,7 @@ void add_change(Database& db, const std::string& uid, const char* kind, std::int
 std::vector<Change> changes(Database& db, std::int64_t after, int limit);
 ChangeRange change_range(Database& db);
 void add_audit(Database& db, const AuditRow& row, std::int64_t now);
-std::vector<AuditRow> audit(Database& db, int limit);
+std::vector<AuditRow> audit(Database& db, int limit, bool only_denied = false);
 
 // --- sweeps ------------------------------------------------------------------------------------------
 CreatedSweep create_sweep(Database& db, const NewSweep& sweep, int limit, std::int64_t now);

@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "server/store/chunk.hpp"
 #include "server/store/database.hpp"
-#include "server/store/migrations.hpp"
+#include "server/store/sqlite_rows.hpp"
 
 namespace seaway::store {
 namespace {
@@ -71,6 +71,12 @@ Verification verify_database(const std::string& path, const std::string& vfs) {
   if (out.problems.empty()) check_histories(db, out);
   db.execute("COMMIT");
   return out;
+}
+
+std::vector<AuditRow> read_audit(const std::string& path, int limit, bool only_denied) {
+  check_file(path);
+  Database db(path, Database::Role::reader);
+  return rows::audit(db, limit, only_denied);
 }
 
 void backup_database(const std::string& from, const std::string& to) {

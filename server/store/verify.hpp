@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "server/store/job.hpp"
+
 namespace seaway::store {
 
 struct Verification {
@@ -16,6 +18,9 @@ struct Verification {
 /// Reads everything: pages and indexes, references, check sums of all chunks, histories without gaps. Throws
 /// Error(unavailable) if there is no such file, data_loss if it is no database.
 Verification verify_database(const std::string& path, const std::string& vfs = "");
+
+/// The audit trail of a database, newest first, at most `limit` rows; only what was denied if so. Throws as verify_database.
+std::vector<AuditRow> read_audit(const std::string& path, int limit, bool only_denied);
 
 /// Copies the database, as it is at one moment, to a new file; a running server is not disturbed. Throws
 /// Error: failed_precondition if `to` exists, unavailable if it cannot be written.

@@ -113,6 +113,7 @@ TEST_F(MetricsPage, StaysAwayWithoutAPortAndFromOtherAddresses) {
   const Finished open = refused("metrics: {address: 0.0.0.0, port: 0}\n");
   EXPECT_EQ(open.code, 2);
   EXPECT_THAT(open.output, HasSubstr("only loopback addresses"));
+  EXPECT_EQ(refused("metrics: {address: 127.example.org, port: 0}\n").code, 2) << "that may be anybody's";
   const Finished half = refused("metrics: {address: 127.0.0.1}\n");
   EXPECT_EQ(half.code, 2);
   EXPECT_THAT(half.output, HasSubstr("metrics.port: is missing"));

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "client/job_client.hpp"
 #include "tests/support/process.hpp"
@@ -62,7 +63,8 @@ TEST_F(Programs, SubmitWatchAndAllResults) {
   EXPECT_TRUE(nlohmann::json::parse(read_text(folder_ / "s.json")).contains("hull"));
   const Finished plot = seaway({"plot", "-o", folder_ / "pictures", "--json"});
   ASSERT_EQ(plot.code, 0) << plot.output;
-  for (const auto& file : nlohmann::json::parse(plot.output)["files"]) EXPECT_GT(fs::file_size(file.get<std::string>()), 10000u);
+  const auto plotted = nlohmann::json::parse(plot.output);  // alive over the loop
+  for (const auto& file : plotted["files"]) EXPECT_GT(fs::file_size(file.get<std::string>()), 10000u);
   EXPECT_EQ(seaway({"watch", "--json"}).code, 0);
   EXPECT_EQ(daemon_->terminate(), 0);
 }
@@ -164,8 +166,8 @@ TEST_F(Programs, StopUnderLoadIsQuickAndLosesNothing) {
   Process watcher({build + "/bin/seaway", "--server", daemon_->address(), "watch"}, folder_ / "watch.txt");
   client::JobClient client(daemon_->address());
   const std::string name = client.resolve("latest");
-  while (client.get(name).latest_sequence() < 50) {
-  }
+  // The watcher has begun as well: one that meets no server at its start gives up.
+  while (client.get(name).latest_sequence() < 50 || read_text(folder_ / "watch.txt").empty()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   const auto began = std::chrono::steady_clock::now();
   EXPECT_EQ(daemon_->terminate(), 0);
   EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(10)) << read_text(folder_ / "log.txt");
@@ -177,7 +179,7 @@ TEST_F(Programs, StopUnderLoadIsQuickAndLosesNothing) {
 }
 
 TEST_F(Programs, CommandsOfTheJobLife) {
-  start({"SEAWAY_FAKE_STEP_US=1000"});
+  start({"SEAWAY_FAKE_STEP_US=" + std::to_string(2000 * SEAWAY_SLOWDOWN)});  // the first job runs longer than its commands take
   ASSERT_EQ(seaway({"submit", small}).code, 0);
   ASSERT_EQ(seaway({"submit", "--hold", "--label", "ship=dtmb", "--note", "later", "--priority", "3", small}).code, 0);
   EXPECT_THAT(seaway({"list", "--state", "held", "--label", "ship=dtmb"}).output, HasSubstr("held"));
@@ -208,6 +210,12 @@ TEST_F(Programs, CommandsOfTheJobLife) {
   const Finished backup = run_program({build + "/tests/seaway_fake_daemon", "--data-dir", data, "backup", folder_ / "copy.db"});
   EXPECT_EQ(backup.code, 0) << backup.output;
   EXPECT_THAT(backup.output, HasSubstr("4 jobs"));
+  const Finished audit = run_program({build + "/tests/seaway_fake_daemon", "--data-dir", data, "audit", "-n", "200"});
+  EXPECT_EQ(audit.code, 0) << audit.output;
+  EXPECT_THAT(audit.output, ::testing::ContainsRegex("local +ipv4:127.0.0.1:[0-9]+ +KillJob +OK +jobs/"));
+  EXPECT_LT(audit.output.find("CreateJob"), audit.output.find("SetLogLevel")) << "oldest first";
+  EXPECT_EQ(run_program({build + "/tests/seaway_fake_daemon", "--data-dir", data, "audit", "--denied"}).output, "");
+  EXPECT_EQ(run_program({build + "/tests/seaway_fake_daemon", "--data-dir", folder_ / "nowhere", "audit"}).code, 1);
   EXPECT_EQ(daemon_->terminate(), 0);
   const Finished verify = run_program({build + "/tests/seaway_fake_daemon", "--data-dir", data, "verify"});
   EXPECT_EQ(verify.code, 0) << verify.output;

@@ -42,7 +42,8 @@ TEST_F(Reports, ASweepFromTheCommandLineToItsCurve) {
   ASSERT_EQ(sweep.code, 0) << sweep.output;
   EXPECT_EQ(json::parse(sweep.output)["sweep"]["points"].size(), 2u);
   EXPECT_EQ(seaway({"watch"}).code, 0);
-  for (const auto& point : json::parse(seaway({"sweeps", "latest", "--json"}).output)["points"])
+  const auto made = json::parse(seaway({"sweeps", "latest", "--json"}).output);  // alive over the loop
+  for (const auto& point : made["points"])
     EXPECT_EQ(seaway({"watch", point["job"].get<std::string>().substr(5)}).code, 0);
   EXPECT_THAT(seaway({"sweeps"}).output, HasSubstr("succeeded 2"));
   EXPECT_THAT(seaway({"sweeps", "latest"}).output, HasSubstr("1.2 s"));

@@ -26,6 +26,7 @@ struct Settings {
   double checkpoint_interval_s = 5;
   unsigned seed = 1;
   bool json = false;
+  bool no_memory_bars = false;  ///< memory is shown, and no bar: for programs with a sanitizer
 };
 
 /// One line of the result; `pass` is value <= reference, or >= with at_least.
@@ -60,6 +61,10 @@ std::vector<Line> requests(const Settings& settings);
 
 /// CPU that a process has used [s].
 double cpu_seconds(pid_t pid);
+/// Files that a process has open.
+int descriptors(pid_t pid);
+/// kill -9 of a worker that runs now on this data folder; false if there is none.
+bool kill_worker(const std::string& data);
 /// The case file as a request with a new id, with the table that it names.
 v1::CreateJobRequest request_of(const std::string& case_file);
 /// Options of seawayd for these settings, as a file in `folder`.

@@ -2,13 +2,9 @@
 // kill: kill -9 of seawayd and of its workers at random moments of runs, while others submit, cancel and wait in the
 // queue. What was acknowledged and what a client has received must survive, and the final history must be that of
 // an unbroken run.
-#include <signal.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 #include <random>
 #include <thread>
@@ -36,16 +32,20 @@ std::int64_t lost_lines(const std::string& seen, const std::string& stored) {
   return lost;
 }
 
-/// kill -9 of a worker that runs now; false if there is none.
-bool kill_worker(const std::string& data) {
-  for (const auto& lease : std::filesystem::directory_iterator(data + "/leases")) {
-    pid_t pid = 0;
-    std::ifstream(lease.path()) >> pid;
-    // The number may be of a worker that has just gone, but not of anything else: it is checked by its name.
-    const std::string name = testing::read_text("/proc/" + std::to_string(pid) + "/cmdline");
-    if (pid > 1 && name.find("attempt") != std::string::npos) return ::kill(pid, SIGKILL) == 0;
-  }
-  return false;
+/// Says how the history of a run that was killed differs from the unbroken one.
+void explain(const v1::Job& job, const std::string& got, const std::string& expected) {
+  const auto first = std::mismatch(got.begin(), got.end(), expected.begin(), expected.end());
+  const auto line_at = [](const std::string& text, std::string::const_iterator at) {
+    const auto from = static_cast<std::size_t>(at - text.begin());
+    const std::size_t begin = from == 0 ? 0 : text.rfind('\n', from - 1) + 1;
+    return text.substr(begin, text.find('\n', from) - begin);
+  };
+  std::fprintf(stderr, "kill: %s ended in state %d (%s) after %d attempts, with %lld samples of %lld; the first line that differs, and as it should be:\n%s\n%s\n",
+               job.name().c_str(), static_cast<int>(job.state()), job.state_message().c_str(), job.attempt(),
+               static_cast<long long>(count_lines(got)), static_cast<long long>(count_lines(expected)),
+               line_at(got, first.first).c_str(), line_at(expected, first.second).c_str());
+  for (const auto& event : job.events())
+    if (event.kind() != "STATE") std::fprintf(stderr, "kill: attempt %d %s %s\n", event.attempt(), event.kind().c_str(), event.text().c_str());
 }
 
 /// A submit whose answer may be lost: only an acknowledged one counts.
@@ -96,6 +96,7 @@ std::vector<Line> kill(const Settings& s) {
   int done = 0, workers = 0;
   std::int64_t samples_lost = 0;
   std::vector<std::string> histories;
+  std::vector<v1::Job> ends;  ///< of the jobs that they belong to
   // A short case may end before all kills have hit it: then it runs again.
   for (int round = 0; done < s.kills && round < s.kills; ++round) {
     const std::size_t first = acknowledged.size();
@@ -128,6 +129,7 @@ std::vector<Line> kill(const Settings& s) {
     const std::string& seen = witness.wait();
     client::JobClient client(daemon.address());
     histories.push_back(history_csv_of(client, acknowledged[first]));
+    ends.push_back(client.get(acknowledged[first], v1::JOB_VIEW_FULL));
     samples_lost += lost_lines(seen, histories.back());
     for (std::size_t i = first + 1; i < acknowledged.size(); ++i) {
       try {
@@ -153,6 +155,8 @@ std::vector<Line> kill(const Settings& s) {
                done, workers, histories.size(), static_cast<long long>(count_lines(expected)), acknowledged.size(),
                cancelled.size());
   if (done < s.kills) throw std::runtime_error("kill: the run ended before it was killed often enough");
+  for (std::size_t i = 0; i < histories.size(); ++i)
+    if (histories[i] != expected) explain(ends[i], histories[i], expected);
   const auto different = std::count_if(histories.begin(), histories.end(), [&](const auto& h) { return h != expected; });
   return {{"kill", "jobs_lost", static_cast<double>(jobs_lost), "1", 0, 0},
           {"kill", "samples_lost", static_cast<double>(samples_lost), "1", 0, 0},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // seaway-stress NAME... : the bars of the service on the real programs; see --list.
 #include <grpcpp/create_channel.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -42,6 +43,23 @@ double cpu_seconds(pid_t pid) {
   unsigned long user = 0, system = 0;
   std::sscanf(stat.c_str() + stat.rfind(')') + 1, " %*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu", &user, &system);
   return static_cast<double>(user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
+int descriptors(pid_t pid) {
+  int n = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator("/proc/" + std::to_string(pid) + "/fd")) ++n;
+  return n;
+}
+
+bool kill_worker(const std::string& data) {
+  for (const auto& lease : fs::directory_iterator(data + "/leases")) {
+    pid_t pid = 0;
+    std::ifstream(lease.path()) >> pid;
+    // The number may be of a worker that has just gone, but not of anything else: it is checked by its name.
+    const std::string name = testing::read_text("/proc/" + std::to_string(pid) + "/cmdline");
+    if (pid > 1 && name.find("attempt") != std::string::npos) return ::kill(pid, SIGKILL) == 0;
+  }
+  return false;
 }
 
 v1::CreateJobRequest request_of(const std::string& case_file) {
@@ -121,6 +139,7 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", s.seconds, "longest time to watch a run")->capture_default_str();
   app.add_option("--checkpoint-interval", s.checkpoint_interval_s, "seconds")->capture_default_str();
   app.add_option("--seed", s.seed, "of the random moments; 0: a new one");
+  app.add_flag("--no-memory-bars", s.no_memory_bars, "show memory without a bar: for programs with a sanitizer");
   app.add_flag("--json", s.json, "one JSON object a line");
   CLI11_PARSE(app, argc, argv);
   if (show_names) {
@@ -135,7 +154,8 @@ int main(int argc, char** argv) {
       throw std::runtime_error("give names and --case; see --help");
     for (const std::string& name : names) {
       if (all.count(name) == 0) throw std::runtime_error(name + " is unknown; see --list");
-      for (const Line& line : all.at(name)(s)) {
+      for (Line& line : all.at(name)(s)) {
+        line.beside = line.beside || (s.no_memory_bars && line.unit == "MB");
         print(line, s.json);
         pass = pass && line.pass();
       }

@@ -7,10 +7,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "client/job_client.hpp"
 #include "proto/history_csv.hpp"
 #include "proto/yaml.hpp"
+#include "seaway/worker/attempt.pb.h"
 #include "tests/support/process.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -27,9 +29,7 @@ const std::string small = SEAWAY_SOURCE_DIR "/tests/e2e/small.yaml";
 class WorkerProcess : public ::testing::Test {
  protected:
   void start(const std::string& workers, int step_us = 300) {
-    std::ofstream(folder_ / "config.yaml") << "workers:\n  executor: process\n  program: " SEAWAY_BUILD_DIR
-                                              "/tests/seaway_fake_offline\n"
-                                           << workers;
+    std::ofstream(folder_ / "config.yaml") << "workers:\n  executor: process\n  program: " << program_ << "\n" << workers;
     daemon_ = std::make_unique<Daemon>(SEAWAY_BUILD_DIR "/tests/seaway_fake_daemon", folder_.path(),
                                        std::vector<std::string>{"SEAWAY_FAKE_STEP_US=" + std::to_string(step_us),
                                                                 "SEAWAY_FAKE_CHECKPOINT_STEPS=40"},
@@ -86,6 +86,7 @@ class WorkerProcess : public ::testing::Test {
   }
 
   TempFolder folder_;
+  std::string program_ = SEAWAY_BUILD_DIR "/tests/seaway_fake_offline";
   std::unique_ptr<Daemon> daemon_;
   std::unique_ptr<JobClient> client_;
 };
@@ -132,6 +133,36 @@ TEST_F(WorkerProcess, AfterTheAllowedAttemptsTheJobFailsWithItsReasonAndTheNextO
   expect_failed(run("fault throw@50"), v1::Job::REASON_INTERNAL, "thrown on purpose", 1);
   EXPECT_EQ(run("plain").state(), v1::Job::STATE_SUCCEEDED);
   EXPECT_EQ(daemon_->terminate(), 0);
+}
+
+TEST_F(WorkerProcess, AProgramThatIsBeingUpgradedIsNoFaultOfAJob) {
+  const std::string real = program_;
+  program_ = folder_ / "seaway-run";
+  const auto install = [&](const std::string& script) {
+    std::ofstream(program_ + ".new") << script;
+    fs::permissions(program_ + ".new", fs::perms::owner_all);
+    fs::rename(program_ + ".new", program_);
+  };
+  const auto until_log = [&](const std::string& words) {
+    for (int i = 0; i < 3000 && read_text(folder_ / "log.txt").find(words) == std::string::npos; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_THAT(read_text(folder_ / "log.txt"), HasSubstr(words));
+  };
+  // The next version is there, and the server is still the one before.
+  worker::Order order;
+  order.set_code_version("another one");
+  std::ofstream(folder_ / "order") << order.SerializeAsString();
+  install("#!/bin/sh\nexec " + real + " attempt <" + (folder_ / "order") + "\n");
+  start("  max_faults: 1\n");
+  const std::string name = submit("plain");
+  until_log("is of another version than this server; restart the server");
+  fs::remove(program_);
+  until_log("cannot be started: No such file");
+  install("#!/bin/sh\nexec " + real + " attempt\n");
+  const v1::Job job = ended(name);
+  EXPECT_EQ(job.state(), v1::Job::STATE_SUCCEEDED) << job.state_message();
+  EXPECT_EQ(job.fault_count(), 0);
+  EXPECT_GT(job.attempt(), 2);
 }
 
 TEST_F(WorkerProcess, HangsAreFoundAndKilled) {

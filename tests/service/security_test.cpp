@@ -185,9 +185,9 @@ TEST_F(F22, TokensAreNotFoundByTryingAndEachTryIsRecorded) {
 
 TEST_F(Security, OtherAddressesNeedTlsAndPrincipals) {
   const Pem authority = make_certificate("test authority"), server = make_certificate("server", &authority);
-  const auto why = [&](rpc::AccessSettings access) -> std::string {
+  const auto why = [&](rpc::AccessSettings access, const std::string& address = "0.0.0.0") -> std::string {
     rpc::ServerSettings settings;
-    settings.address = "0.0.0.0";
+    settings.address = address;
     settings.access = std::move(access);
     try {
       TestService service({}, settings);
@@ -199,6 +199,9 @@ TEST_F(Security, OtherAddressesNeedTlsAndPrincipals) {
   };
   rpc::AccessSettings access;
   EXPECT_THAT(why(access), ::testing::HasSubstr("needs security.certificate"));
+  for (const char* name : {"127.example.org", "127.0.0.1.example.org", "127.1", "::", "example.org"})
+    EXPECT_THAT(why(access, name), ::testing::HasSubstr("needs security.certificate")) << name << " is anybody's";
+  EXPECT_EQ(why(access, "127.0.0.2"), "started");
   access.principals = {by_token("ada", rpc::Role::admin, "a-token")};
   EXPECT_THAT(why(access), ::testing::HasSubstr("needs security.certificate")) << "tokens never go over an open line";
   access.certificate = file("server.pem", server.certificate);

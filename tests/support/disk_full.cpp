@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loaded into the programs under test (LD_PRELOAD): a disk that is full from the N-th write on, until it is not, or whose
-// syncs fail.
+// syncs fail; and a system that makes no more threads and processes.
 // Counts writes to files below SEAWAY_DISK_FULL_FOLDER over all processes, in the file that
 // SEAWAY_DISK_FULL_CONTROL names (see disk_full.hpp).
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
+#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -64,6 +66,13 @@ bool sync_fails(int fd) {
   return true;
 }
 
+bool thread_is_refused() {
+  DiskFullControl* shared = control();
+  if (shared == nullptr || shared->threads_fail.load() == 0) return false;
+  shared->threads_refused.fetch_add(1);
+  return true;
+}
+
 template <class F>
 F next(F, const char* name) {
   return reinterpret_cast<F>(dlsym(RTLD_NEXT, name));
@@ -95,5 +104,14 @@ int fdatasync(int fd) {
 ssize_t writev(int fd, const iovec* parts, int count) {
   static const auto real = next(&writev, "writev");
   return is_refused(fd) ? -1 : real(fd, parts, count);
+}
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*), void* argument) {
+  static const auto real = next(&pthread_create, "pthread_create");
+  return thread_is_refused() ? EAGAIN : real(thread, attributes, run, argument);
+}
+int posix_spawn(pid_t* pid, const char* path, const posix_spawn_file_actions_t* files, const posix_spawnattr_t* attributes,
+                char* const arguments[], char* const environment[]) {
+  static const auto real = next(&posix_spawn, "posix_spawn");
+  return thread_is_refused() ? EAGAIN : real(pid, path, files, attributes, arguments, environment);
 }
 }

@@ -18,6 +18,8 @@ struct DiskFullControl {
   std::atomic<std::int64_t> full_from;  ///< number of the first write that fails; < 0: none
   std::atomic<std::int64_t> refused;
   std::atomic<std::int64_t> syncs_fail;  ///< not 0: fsync and fdatasync of those files fail
+  std::atomic<std::int64_t> threads_fail;     ///< not 0: no thread and no process can be made
+  std::atomic<std::int64_t> threads_refused;  ///< so far
 };
 
 /// Made by the test before the programs start, in a file that SEAWAY_DISK_FULL_CONTROL names to them.

@@ -38,6 +38,7 @@ class TestService {
                                           [this](const std::string& uid) { pool->request_stop(uid); },
                                           [this](const std::string& uid) { pool->request_kill(uid); });
     server = std::make_unique<rpc::Server>(settings_, *queue, *store);
+    pool->start();
   }
   void stop() {
     server.reset();

@@ -30,6 +30,7 @@ class QueueTest : public ::testing::Test {
     pool_.reset();
     executor_ = make_thread_executor({}, fake_solver(fake_), workspace_, *store_, quiet_context().log);
     pool_ = std::make_unique<WorkerPool>(settings, *executor_, workspace_, *store_, quiet_context().log);
+    pool_->start();
   }
   std::string submit(int id, const v1::Case& m = small_case()) { return queue_.submit(create_request(id, m)).job.uid; }
   std::string why_refused(const v1::CreateJobRequest& request) {
