@@ -29,9 +29,10 @@ bool is_plain_name(const std::string& name) {
 }  // namespace
 
 StoreObserver::StoreObserver(std::string uid, std::int64_t last_sequence, std::string folder, store::JobStore& store,
-                             std::shared_ptr<spdlog::logger> log, metrics::Metrics* metrics)
+                             std::shared_ptr<spdlog::logger> log, metrics::Metrics* metrics,
+                             std::function<Clock::time_point()> now)
     : uid_(std::move(uid)), folder_(std::move(folder)), store_(store), log_(std::move(log)), metrics_(metrics),
-      next_(last_sequence + 1) {}
+      now_(std::move(now)), next_(last_sequence + 1) {}
 
 void StoreObserver::on_channels(const std::vector<sim::Channel>& channels) {
   std::vector<store::Channel> rows;
@@ -79,7 +80,7 @@ void StoreObserver::on_progress(const sim::Progress& progress) {
   const bool turned = progress.stage != progress_.stage || progress.held != progress_.held;
   progress_ = progress;
   progress_waits_ = true;
-  if (turned || Clock::now() - progress_sent_ >= progress_interval) send_progress();
+  if (turned || now_() - progress_sent_ >= progress_interval) send_progress();
 }
 
 void StoreObserver::on_stage_finished(const sim::StageResult& result) { put_stage(convert::to_proto(result)); }
@@ -120,7 +121,7 @@ void StoreObserver::finish() { send_progress(); }
 void StoreObserver::send_progress() {
   if (!progress_waits_) return;
   progress_waits_ = false;
-  progress_sent_ = Clock::now();
+  progress_sent_ = now_();
   store_.set_progress(uid_, to_row(progress_));
 }
 

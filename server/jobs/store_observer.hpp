@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,10 +20,12 @@ namespace seaway::jobs {
 
 class StoreObserver final : public sim::RunObserver {
  public:
+  using Clock = std::chrono::steady_clock;
   /// `last_sequence`: of the stored history; samples up to it may come again, later ones must follow.
-  /// `folder`: artifacts outside it are refused. `metrics`: null: not counted.
+  /// `folder`: artifacts outside it are refused. `metrics`: null: not counted. `now` paces the progress.
   StoreObserver(std::string uid, std::int64_t last_sequence, std::string folder, store::JobStore& store,
-                std::shared_ptr<spdlog::logger> log, metrics::Metrics* metrics = nullptr);
+                std::shared_ptr<spdlog::logger> log, metrics::Metrics* metrics = nullptr,
+                std::function<Clock::time_point()> now = Clock::now);
 
   void on_channels(const std::vector<sim::Channel>& channels) override;
   void on_stage_started(const sim::StageInfo& info) override;
@@ -40,7 +43,6 @@ class StoreObserver final : public sim::RunObserver {
   void finish();
 
  private:
-  using Clock = std::chrono::steady_clock;
   void send_progress();
   bool is_in_folder(const std::string& absolute) const;
   void count_steps(const sim::Sample& sample);
@@ -49,6 +51,7 @@ class StoreObserver final : public sim::RunObserver {
   store::JobStore& store_;
   const std::shared_ptr<spdlog::logger> log_;
   metrics::Metrics* const metrics_;
+  const std::function<Clock::time_point()> now_;
   std::int64_t cells_ = 0;  ///< of the running stage
   std::int64_t step_ = -1;  ///< of the last sample; -1: not known, after a resume
   std::int64_t next_;  ///< largest sequence number that may come

@@ -2,6 +2,7 @@
 #include "tests/simulation/simulation.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -282,7 +283,8 @@ class Simulation {
     Attempt a;
     a.uid = job->uid;
     a.length = std::atoi(job->title.c_str() + 7);
-    a.observer = std::make_unique<jobs::StoreObserver>(job->uid, job->last_sequence, "/run/" + job->uid, *store_, quiet_context().log);
+    a.observer = std::make_unique<jobs::StoreObserver>(job->uid, job->last_sequence, "/run/" + job->uid, *store_, quiet_context().log, nullptr,
+                                                       [this] { return steady_ += std::chrono::milliseconds(60); });
     // The newest checkpoint that the store knows and that is still whole.
     for (const auto& c : store_->checkpoints(job->uid)) {
       if (c.sequence > job->last_sequence) violation("job " + job->uid + ": a checkpoint ahead of the history");
@@ -355,6 +357,7 @@ class Simulation {
   std::mt19937_64 random_;
   const bool bug_;
   SimDisk disk_;
+  jobs::StoreObserver::Clock::time_point steady_{};  ///< of the progress: every fourth or fifth is sent
   std::int64_t clock_ = 1'700'000'000'000'000'000;
   int next_uid_ = 1;
   bool calm_ = false;
