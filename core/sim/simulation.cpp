@@ -107,6 +107,7 @@ void Simulation<Dim>::extend_pressure() {
     }
   }
   window.store_cells(p, state_.p);
+  field::restrict_cells<double, Dim>(*forest_, state_.p);  // the next solve starts from the parents too, and so must a resumed run
 }
 
 template <int Dim>
