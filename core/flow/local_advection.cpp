@@ -65,6 +65,10 @@ void Advection<Dim>::advance_rest(FlowState<Dim>& state, double dt, std::int64_t
   start_from(state);
   for (int k = 0; k < Dim; ++k) {
     copy_leaves(forest_, plan.fast, state, vof_new_, u_new_, carried_new_);
+    // Their neighbours look at their fluxes: none, not those of some step before, or a resumed run would see others.
+    mesh::for_each(plan.fast, forest_.threads(), [&](int b) {
+      for (int a = 0; a < Dim; ++a) std::fill_n(swept_.block(a, b), BlockShape<Dim>::faces, 0.0);
+    });
     sweep(plan.slow, state, static_cast<int>((k + step) % Dim), dt);
     take_new(state);
   }
