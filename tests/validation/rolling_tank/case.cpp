@@ -5,8 +5,8 @@
 #include <complex>
 
 #include "tests/validation/cases.hpp"
+#include "tests/validation/support/closed_tank.hpp"
 #include "tests/validation/support/linear_sloshing.hpp"
-#include "tests/validation/support/one_fluid.hpp"
 #include "tests/validation/support/signal.hpp"
 
 namespace seaway::validation {
@@ -18,40 +18,19 @@ constexpr double ramp = 4 * period;     // slow: the tank's own modes are hardly
 constexpr double duration = ramp + 3 * period;
 
 /// The tank as a hull in a space of air; it turns about the middle of its calm surface.
-sim::Case tank(double h, double wall) {
-  sim::Case c;
+sim::Case rolling_tank(double h, double wall) {
+  sim::Case c = closed_tank_case({breadth, height, depth, wall}, depth, h);
   c.title = "rolling tank";
   c.base_cell = 0.04;
-  c.tank.lower = {0, -0.48, -0.32};
-  c.tank.upper = {0, 0.48, 0.32};
-  // The grid's lines fall anywhere.
-  for (int a = 1; a < 3; ++a) {
-    c.tank.lower[a] += 0.37 * h;
-    c.tank.upper[a] += 0.37 * h;
-  }
-  c.hull.shape = sim::Hull::Shape::box;
-  c.hull.beam = breadth + 2 * wall;
-  c.hull.height = height + 2 * wall;
-  sim::Compartment inside;
-  inside.name = "tank";
-  inside.lower = {0, -0.5 * breadth, wall};
-  inside.upper = {0, 0.5 * breadth, wall + height};
-  inside.wall_thickness = wall;
-  inside.flooded = true;  // to z = 0
-  c.hull.compartments = {inside};
-  c.body.mass = 100;  // means nothing: the motion is given
-  c.body.cog = {0, 0, wall + depth};
-  c.body.gyradii = {0.1, 0, 0};
-  c.body.draft = wall + depth;
+  const double shift = 0.37 * h;  // the grid's lines fall anywhere
+  c.tank.lower = {0, -0.48 + shift, -0.32 + shift};
+  c.tank.upper = {0, 0.48 + shift, 0.32 + shift};
   c.body.prescribed = {{sim::Dof::roll, amplitude, period, ramp}};
   c.time.dt = period / 1400 * (h / 0.001);
-  sim::Stage stage;
-  stage.name = "only";
-  stage.mesh.hull_cell = h;
+  sim::Stage& stage = c.stages.front();
   stage.mesh.hull_sweep = 2 * amplitude;
   stage.mesh.hull_heave = 0.005;
   stage.end.duration = duration;
-  c.stages = {stage};
   return c;
 }
 
@@ -62,7 +41,7 @@ struct Response {
 
 /// `in_the_sea`: floats in water as high as its own instead of hanging in the air.
 Response roll(double h, double wall, bool in_the_sea, int threads) {
-  const auto run = start(tank(h, wall), threads);
+  const auto run = start(rolling_tank(h, wall), threads);
   if (!in_the_sea) empty_the_sea(*run);
   const double water = run->water().visible, omega = 2 * pi / period;
   Record moment, angle;

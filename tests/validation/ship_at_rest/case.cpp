@@ -1,6 +1,7 @@
 // [ship_at_rest] The DTMB 5415, intact and damaged, let go in calm water: draft and heel; see README.md beside this file.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "core/base/constants.hpp"
@@ -23,25 +24,15 @@ struct Rest {
   double cells = 0;
 };
 
-double mean_of_end(const Record& r) {
-  double sum = 0;
-  int count = 0;
-  for (std::size_t i = 0; i < r.t.size(); ++i)
-    if (r.t[i] > duration - averaged) {
-      sum += r.value[i];
-      ++count;
-    }
-  return sum / count;
-}
+/// Mean over the end, and largest less smallest there.
+struct End {
+  double mean = 0, swing = 0;
+};
 
-double swing_at_end(const Record& r) {
-  double largest = -1e9, smallest = 1e9;
-  for (std::size_t i = 0; i < r.t.size(); ++i)
-    if (r.t[i] > duration - averaged) {
-      largest = std::max(largest, r.value[i]);
-      smallest = std::min(smallest, r.value[i]);
-    }
-  return largest - smallest;
+End end_of(const Record& r) {
+  const auto first = r.value.begin() + (std::upper_bound(r.t.begin(), r.t.end(), duration - averaged) - r.t.begin());
+  const auto [smallest, largest] = std::minmax_element(first, r.value.end());
+  return {std::accumulate(first, r.value.end(), 0.0) / static_cast<double>(r.value.end() - first), *largest - *smallest};
 }
 
 /// `lift`: how much too high it starts [m].
@@ -64,10 +55,11 @@ Rest settle(const std::string& example, double lift, int threads) {
     draft.add(run->time(), rest.hydrostatics - moved[2]);
     heel.add(run->time(), moved[3]);
   }
-  rest.draft = mean_of_end(draft);
-  rest.heel = mean_of_end(heel);
-  rest.swing = swing_at_end(draft);
-  rest.roll = swing_at_end(heel);
+  const End sunk = end_of(draft), heeled = end_of(heel);
+  rest.draft = sunk.mean;
+  rest.swing = sunk.swing;
+  rest.heel = heeled.mean;
+  rest.roll = heeled.swing;
   return rest;
 }
 

@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "core/field/restrict.hpp"
 #include "tests/validation/cases.hpp"
-#include "tests/validation/support/one_fluid.hpp"
+#include "tests/validation/support/closed_tank.hpp"
 #include "tests/validation/support/signal.hpp"
 
 namespace seaway::validation {
@@ -21,27 +20,13 @@ constexpr double impact_from = 10 * mbar;  // a head of 0.1 m: more than the sen
 
 /// The tank as a hull of 30 mm walls in an air-filled space; it turns about the middle of its floor.
 sim::Case rolling_tank(double h, double base_cell) {
-  sim::Case c;
+  sim::Case c = closed_tank_case({breadth, height, fill, wall}, 0, h);
   c.title = "SPHERIC test 10";
   c.base_cell = base_cell;
   c.tank.lower = {0, -0.64, -0.40};
   c.tank.upper = {0, 0.64, 0.88};
   c.fluids.rho_water = 998;
   c.fluids.nu_water = 8.94e-4 / 998;
-  c.hull.shape = sim::Hull::Shape::box;
-  c.hull.beam = breadth + 2 * wall;
-  c.hull.height = height + 2 * wall;
-  sim::Compartment inside;
-  inside.name = "tank";
-  inside.lower = {0, -0.5 * breadth, wall};
-  inside.upper = {0, 0.5 * breadth, wall + height};
-  inside.wall_thickness = wall;
-  inside.flooded = true;  // to z = 0
-  c.hull.compartments = {inside};
-  c.body.mass = 100;  // means nothing: the motion is given
-  c.body.cog = {0, 0, wall};
-  c.body.gyradii = {0.3, 0, 0};
-  c.body.draft = wall + fill;
   // Ramped over a quarter of the period: the first swing is the first one of full size.
   c.body.prescribed = {{sim::Dof::roll, amplitude, period, period / 4}};
   c.time.dt = 0.2 * h;  // [s]: waves and jets of 1 m/s cross a fifth of a cell
@@ -49,13 +34,10 @@ sim::Case rolling_tank(double h, double base_cell) {
   c.outputs.probes = {{"starboard", true, {0, -0.5 * breadth, wall + fill}},
                       {"port", true, {0, 0.5 * breadth, wall + fill}},
                       {"air", true, {0, 0, wall + height - 0.02}}};
-  sim::Stage stage;
-  stage.name = "only";
-  stage.mesh.hull_cell = h;
+  sim::Stage& stage = c.stages.front();
   stage.mesh.hull_sweep = 6 * degree;
   stage.mesh.hull_heave = 0.01;
   stage.end.duration = 1;
-  c.stages = {stage};
   return c;
 }
 

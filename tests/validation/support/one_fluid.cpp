@@ -43,25 +43,6 @@ void each_cell(const Section& run, const std::function<void(int, int, const Vec2
     });
 }
 
-void empty_the_sea(Section& run) {
-  flow::FlowState<2> state = run.state();
-  const auto& hull = run.model().description.hull;
-  const motion::RigidBody<2>& body = run.model().body;
-  // To the middle of the walls: of cells that a wall cuts each side keeps its own.
-  const auto in_compartment = [&](const Vec2& x) {
-    const Vec2 at = motion::earth_to_hull<2>(body, run.body().pose, x);
-    return std::any_of(hull.compartments.begin(), hull.compartments.end(), [&](const sim::Compartment& c) {
-      const double wall = 0.5 * c.wall_thickness;
-      return at[0] > c.lower[1] - wall && at[0] < c.upper[1] + wall && at[1] > c.lower[2] - wall && at[1] < c.upper[2] + wall;
-    });
-  };
-  each_cell(run, [&](int b, int i, const Vec2& x) {
-    if (!in_compartment(x)) state.vof.block(b)[i] = 0;
-  });
-  std::fill(state.p.data().begin(), state.p.data().end(), 0.0);
-  run.adopt(std::move(state), run.body(), 0, 0, run.dt(), {}, nullptr);
-}
-
 void set_velocity(Section& run, const std::function<double(const Vec2&, int)>& f) {
   for (int axis = 0; axis < 2; ++axis)
     each_face(run, axis, [&](int b, int entry, const Vec2& x) { run.state().u.block(axis, b)[entry] = f(x, axis); });

@@ -22,9 +22,6 @@ void each_face(const Section& run, int axis, const std::function<void(int b, int
 /// The same for cells.
 void each_cell(const Section& run, const std::function<void(int b, int entry, const Vec2& x)>& f);
 
-/// Takes away the water outside the hull's compartments and starts again, at rest, with what is left in them.
-void empty_the_sea(Section& run);
-
 /// Velocity along an axis at a point, linear between faces of a tank of one level.
 double velocity_at(const Section& run, int axis, const Vec2& x);
 
