@@ -1,6 +1,7 @@
 #include "core/linear/multigrid.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace seaway::linear {
 
@@ -17,6 +18,9 @@ namespace {
 /// Rounds of smoothing before and after the coarse correction, each one red-black sweep in every block with its
 /// neighbours' values of the round before. The neighbours matter: two sweeps in one round converge slower.
 constexpr int smoothing_rounds = 3;
+
+/// Rounds more in blocks with gaps and beside them: what no coarse cell corrects is left to the smoothing.
+constexpr int rounds_at_gaps = 4;
 
 template <int Dim>
 IVec<Dim> root_cells(const mesh::TankGrid<Dim>& grid) {
@@ -70,7 +74,8 @@ void store(const Scratch<float, Dim>& z, float* out) {
 template <int Dim>
 Multigrid<Dim>::Multigrid(const PoissonOperator<Dim>& op)
     : op_(op), forest_(op.forest()), b_(forest_), z_{CellField<float, Dim>(forest_), CellField<float, Dim>(forest_)},
-      current_(static_cast<std::size_t>(forest_.n_levels()), 0),
+      current_(static_cast<std::size_t>(forest_.n_blocks()), 0),
+      at_gaps_(static_cast<std::size_t>(forest_.n_levels())),
       coarse_leaves_(static_cast<std::size_t>(forest_.n_levels())),
       first_coarse_face_(static_cast<std::size_t>(forest_.n_blocks()), -1),
       root_(root_cells(forest_.grid()), forest_.grid().periodic) {
@@ -102,6 +107,22 @@ void Multigrid<Dim>::update() {
     }
   }
   root_.finish();
+  find_blocks_at_gaps();
+}
+
+template <int Dim>
+void Multigrid<Dim>::find_blocks_at_gaps() {
+  std::vector<char> listed(static_cast<std::size_t>(forest_.n_blocks()), 0);
+  for (int level = 1; level < forest_.n_levels(); ++level) {
+    const int begin = forest_.level_begin(level), end = forest_.level_begin(level + 1);
+    auto& blocks = at_gaps_[static_cast<std::size_t>(level)];
+    blocks.clear();
+    for (int b = begin; b < end; ++b) {
+      if (!op_.has_gaps(b)) continue;
+      for (const int nb : forest_.block(b).neighbour)  // the block itself is one of them
+        if (nb >= begin && nb < end && !std::exchange(listed[static_cast<std::size_t>(nb)], 1)) blocks.push_back(nb);
+    }
+  }
 }
 
 template <int Dim>
@@ -213,7 +234,6 @@ void Multigrid<Dim>::correct(int b) {
 
 template <int Dim>
 void Multigrid<Dim>::smooth_again(int b, bool down) {
-  const int level = forest_.block(b).level;
   Scratch<float, Dim> z;
   load_cells<float, Dim>(this->z(b), z);
   load_ghosts<float, Dim>(forest_, b, down ? CoarseGhost::zero : CoarseGhost::value,
@@ -221,15 +241,24 @@ void Multigrid<Dim>::smooth_again(int b, bool down) {
   const auto k = Coefficients<Dim>::of(op_.coefficients(), b);
   for (int i = 0; i < 2; ++i)  // upwards in reversed order: symmetric
     half_sweep<Dim>(k, b_.block(b), op_.inverse_diagonal().block(b), down ? i : 1 - i, z);
-  store<Dim>(z, z_[1 - current_[static_cast<std::size_t>(level)]].block(b));
+  store<Dim>(z, z_[1u - current_[static_cast<std::size_t>(b)]].block(b));
 }
 
 template <int Dim>
 void Multigrid<Dim>::smooth_level(int level, bool down) {
   const int begin = forest_.level_begin(level), count = forest_.level_begin(level + 1) - begin;
   mesh::parallel_for(count, forest_.threads(), [&](int i) { smooth_again(begin + i, down); });
-  std::size_t& current = current_[static_cast<std::size_t>(level)];
-  current = 1 - current;
+  for (int b = begin; b < begin + count; ++b) current_[static_cast<std::size_t>(b)] ^= 1u;
+}
+
+template <int Dim>
+void Multigrid<Dim>::smooth_at_gaps(int level, bool down) {
+  const auto& blocks = at_gaps_[static_cast<std::size_t>(level)];
+  for (int round = 0; round < rounds_at_gaps; ++round) {
+    mesh::parallel_for(static_cast<int>(blocks.size()), forest_.threads(),
+                       [&](int i) { smooth_again(blocks[static_cast<std::size_t>(i)], down); });
+    for (const int b : blocks) current_[static_cast<std::size_t>(b)] ^= 1u;
+  }
 }
 
 template <int Dim>
@@ -277,6 +306,7 @@ void Multigrid<Dim>::apply(const CellField<double, Dim>& r) {
     const int begin = forest_.level_begin(level), count = forest_.level_begin(level + 1) - begin;
     mesh::parallel_for(count, threads, [&](int i) { smooth_from_zero(begin + i); });
     for (int round = 1; round < smoothing_rounds; ++round) smooth_level(level, true);
+    smooth_at_gaps(level, true);
     const int coarse = forest_.level_begin(level - 1), n_coarse = begin - coarse;
     mesh::parallel_for(n_coarse, threads, [&](int i) {
       if (!forest_.block(coarse + i).leaf) restrict_residual(coarse + i);
@@ -287,6 +317,7 @@ void Multigrid<Dim>::apply(const CellField<double, Dim>& r) {
   for (int level = 1; level < forest_.n_levels(); ++level) {
     const int begin = forest_.level_begin(level), count = forest_.level_begin(level + 1) - begin;
     mesh::parallel_for(count, threads, [&](int i) { correct(begin + i); });
+    smooth_at_gaps(level, false);
     for (int round = 0; round < smoothing_rounds; ++round) smooth_level(level, false);
   }
 }
