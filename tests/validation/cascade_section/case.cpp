@@ -40,12 +40,6 @@ sim::Case single_mesh(const sim::Case& cascade) {
   return c;
 }
 
-double amplitude(const RunRecord& run, const std::vector<double>& signal, double end,
-                 double period) {
-  const Record last = run.between(signal, end - 3 * period, end);
-  return std::abs(harmonic(last, 2 * pi / period, 0));
-}
-
 }  // namespace
 
 void run_cascade_section(const Context& context, Results& results) {
@@ -64,8 +58,8 @@ void run_cascade_section(const Context& context, Results& results) {
 
   const double period = c.wave.period, cpu = cascade.total_cpu_s;
   const auto difference = [&](std::vector<double> RunRecord::*signal) {
-    const double reference = amplitude(single, single.*signal, end, period);
-    return std::abs(amplitude(cascade, cascade.*signal, end, period) / reference - 1);
+    const double reference = single.amplitude(single.*signal, end, period);
+    return std::abs(cascade.amplitude(cascade.*signal, end, period) / reference - 1);
   };
   const double roll = difference(&RunRecord::roll), heave = difference(&RunRecord::heave);
   const double saved = 1 - cpu / single.cpu_until(end);
@@ -83,8 +77,8 @@ void run_cascade_section(const Context& context, Results& results) {
   results.expect_above("cpu_saved", saved, "1", 0.5);
   results.expect_above("cpu_saved_to_answer", to_answer, "1", 0.3);
   results.expect_below("mapping_share", mapping, "1", 0.02);
-  results.report("roll_amplitude", amplitude(cascade, cascade.roll, end, period) / degree, "deg");
-  results.report("heave_amplitude", amplitude(cascade, cascade.heave, end, period), "m");
+  results.report("roll_amplitude", cascade.amplitude(cascade.roll, end, period) / degree, "deg");
+  results.report("heave_amplitude", cascade.amplitude(cascade.heave, end, period), "m");
   results.report("end_time", end, "s");
   results.report("answer_time_single", single.stages.front().end, "s");
   results.report("cpu_cascade", cpu, "s");

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/base/constants.hpp"
 #include "core/base/error.hpp"
 #include "core/base/version.hpp"
 #include "core/sim/cascade.hpp"
@@ -89,6 +90,10 @@ std::vector<double> rounded(std::vector<double> values) {
 double RunRecord::cpu_until(double time) const {
   const auto at = std::lower_bound(t.begin(), t.end(), time - 1e-9);
   return at == t.end() ? total_cpu_s : cpu_s[static_cast<std::size_t>(at - t.begin())];
+}
+
+double RunRecord::amplitude(const std::vector<double>& signal, double end, double period) const {
+  return std::abs(harmonic(between(signal, end - 3 * period, end), 2 * pi / period, 0));
 }
 
 double RunRecord::mapping_cpu_s() const {

@@ -31,6 +31,8 @@ struct RunRecord {
   double mapping_cpu_s() const;
   /// Samples of one signal with from < t <= to.
   Record between(const std::vector<double>& signal, double from, double to) const;
+  /// First harmonic of the wave's period [s] in a signal over the last three periods until `end`.
+  double amplitude(const std::vector<double>& signal, double end, double period) const;
 };
 
 /// Runs the case in `folder` until it ends or `enough(time, stage)` says so. If a run of the same `digest` was cut
