@@ -70,18 +70,17 @@ void Advection<Dim>::water_fluxes(const Scope& scope, const FlowState<Dim>& stat
     }
     const double h = block.h[axis];
     IVec<Dim> lower = filled<Dim>(0), upper = faces_upper<Dim>(axis);
-    if (scope.part)
-      for (int side = 0; side < 2; ++side) {
-        if (!scope.part->is_cut(b, axis, side)) continue;
-        IVec<Dim> first = filled<Dim>(0), last = faces_upper<Dim>(axis);
-        (side == 0 ? last[axis] : first[axis]) = side == 0 ? 1 : n;
-        (side == 0 ? lower[axis] : upper[axis]) = side == 0 ? 1 : n;
-        const double* whole = recorded_.block(axis, b);
-        for_box<Dim>(first, last, [&](const IVec<Dim>& i) {
-          const int o = offset<Dim>(i, fs);
-          g[o] = scope.share * whole[o];
-        });
-      }
+    for (int side = 0; side < 2; ++side) {
+      if (!scope.is_closed(b, axis, side)) continue;
+      IVec<Dim> first = filled<Dim>(0), last = faces_upper<Dim>(axis);
+      (side == 0 ? last[axis] : first[axis]) = side == 0 ? 1 : n;
+      (side == 0 ? lower[axis] : upper[axis]) = side == 0 ? 1 : n;
+      const double* whole = recorded_.block(axis, b);
+      for_box<Dim>(first, last, [&](const IVec<Dim>& i) {
+        const int o = offset<Dim>(i, fs);
+        g[o] = scope.share * whole[o];
+      });
+    }
     for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
       const int o = offset<Dim>(i, fs);
       const double c = w[o] * dt / h;
@@ -274,8 +273,7 @@ void Advection<Dim>::start_from(const FlowState<Dim>& state) {
 }
 
 template <int Dim>
-void Advection<Dim>::sweep(const std::vector<int>& leaves, const FlowState<Dim>& state, int axis, double dt) {
-  const Scope scope{leaves};
+void Advection<Dim>::sweep(const Scope& scope, const FlowState<Dim>& state, int axis, double dt) {
   planes_.reconstruct(state.vof);
   water_fluxes(scope, state, axis, dt);
   update_vof(scope, state, axis, dt);
@@ -301,7 +299,7 @@ void Advection<Dim>::advance(FlowState<Dim>& state, double dt, std::int64_t step
   start_from(state);
   for (int k = 0; k < Dim; ++k) {
     const int axis = static_cast<int>((k + step) % Dim);
-    sweep(forest_.leaves(), state, axis, dt);
+    sweep({forest_.leaves()}, state, axis, dt);
     if (visitor_) visitor_(axis, swept_);
     take_new(state);
   }

@@ -48,22 +48,24 @@ class Advection {
   InterfacePlanes<Dim>& planes() { return planes_; }
 
  private:
-  /// The leaves that a sweep advances: all of them, or (with `part`) those of a part, through whose sides `share` of
-  /// recorded_ is swept.
+  /// The leaves that a sweep advances: all of them, or those of a part, through whose cut sides goes what flows there or
+  /// (share > 0) that share of recorded_.
   struct Scope {
     const std::vector<int>& leaves;
     const mesh::ForestPart<Dim>* part = nullptr;
-    double share = 1;
+    double share = 0;
+    bool is_closed(int b, int axis, int side) const { return share > 0 && part->is_cut(b, axis, side); }
+    bool has_closed_sides(int b) const { return share > 0 && part->cut_sides[static_cast<std::size_t>(b)] != 0; }
   };
   /// Wholly water or air, like all around it: nothing to reconstruct.
   bool is_pure(const Scope& scope, int b) const {
-    return planes_.surroundings(b) != BlockPhase::mixed && !(scope.part && scope.part->cut_sides[static_cast<std::size_t>(b)]);
+    return planes_.surroundings(b) != BlockPhase::mixed && !scope.has_closed_sides(b);
   }
   void water_fluxes(const Scope& scope, const FlowState<Dim>& state, int axis, double dt);
   void update_vof(const Scope& scope, const FlowState<Dim>& state, int axis, double dt);
   void update_momentum(const Scope& scope, const FlowState<Dim>& state, int axis, double dt);
   void start_from(const FlowState<Dim>& state);
-  void sweep(const std::vector<int>& leaves, const FlowState<Dim>& state, int axis, double dt);
+  void sweep(const Scope& scope, const FlowState<Dim>& state, int axis, double dt);
   void take_new(FlowState<Dim>& state);
   // Local sub-steps (local_advection.cpp).
   void advance_rest(FlowState<Dim>& state, double dt, std::int64_t step, const SubStepPlan<Dim>& plan);

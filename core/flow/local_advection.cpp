@@ -64,12 +64,11 @@ template <int Dim>
 void Advection<Dim>::advance_rest(FlowState<Dim>& state, double dt, std::int64_t step, const SubStepPlan<Dim>& plan) {
   start_from(state);
   for (int k = 0; k < Dim; ++k) {
+    const int axis = static_cast<int>((k + step) % Dim);
     copy_leaves(forest_, plan.fast, state, vof_new_, u_new_, carried_new_);
-    // Their neighbours look at their fluxes: none, not those of some step before, or a resumed run would see others.
-    mesh::for_each(plan.fast, forest_.threads(), [&](int b) {
-      for (int a = 0; a < Dim; ++a) std::fill_n(swept_.block(a, b), BlockShape<Dim>::faces, 0.0);
-    });
-    sweep(plan.slow, state, static_cast<int>((k + step) % Dim), dt);
+    // In leaves and parents; a coarse leaf beside a fast one keeps the fluxes it found itself.
+    std::fill(swept_.data(axis).begin(), swept_.data(axis).end(), plan.unknown_flux);
+    sweep({plan.rest.leaves, &plan.rest}, state, axis, dt);
     take_new(state);
   }
 }

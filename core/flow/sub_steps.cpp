@@ -17,6 +17,28 @@ std::vector<char> too_fast(const mesh::Forest<Dim>& forest, const std::vector<do
   return out;
 }
 
+/// Marks the leaves below a block.
+template <int Dim>
+void choose_below(const mesh::Forest<Dim>& forest, int b, std::vector<char>& chosen) {
+  if (forest.block(b).leaf) {
+    chosen[static_cast<std::size_t>(b)] = 1;
+    return;
+  }
+  for (const int child : forest.block(b).child) choose_below(forest, child, chosen);
+}
+
+/// The fast leaves and a ring of leaves around them that is eight cells wide in the size of its own leaves: a fast leaf beside
+/// a coarser one counts with all that its parent holds, or the ring would be but half a coarse leaf wide there.
+template <int Dim>
+std::vector<char> region_around(const mesh::Forest<Dim>& forest, const std::vector<char>& fast) {
+  std::vector<char> inner = fast;
+  for (const int b : forest.leaves())
+    if (fast[static_cast<std::size_t>(b)] && forest.touches_coarser(b)) choose_below(forest, forest.block(b).parent, inner);
+  std::vector<char> region = mesh::with_neighbours(forest, inner);
+  mesh::complete_jumps(forest, region);
+  return region;
+}
+
 }  // namespace
 
 double largest_courant(const std::vector<double>& courant) {
@@ -39,7 +61,7 @@ SubStepPlan<Dim> plan_sub_steps(const mesh::Forest<Dim>& forest, const std::vect
   for (int whole = 1; whole < most; ++whole) {
     const int inner = (most + whole - 1) / whole;
     std::vector<char> chosen = too_fast(forest, courant, limit, whole);
-    std::vector<char> around = mesh::with_neighbours(forest, chosen);
+    std::vector<char> around = region_around(forest, chosen);
     const auto count = std::count(around.begin(), around.end(), 1);
     const double work = whole * (forest.n_leaves() + static_cast<double>(count) * inner);
     if (work >= least) continue;
@@ -50,7 +72,12 @@ SubStepPlan<Dim> plan_sub_steps(const mesh::Forest<Dim>& forest, const std::vect
     region = std::move(around);
   }
   if (plan.inner == 1) return plan;
-  for (const int b : forest.leaves()) (fast[static_cast<std::size_t>(b)] ? plan.fast : plan.slow).push_back(b);
+  std::vector<char> slow(fast.size(), 0);
+  for (const int b : forest.leaves()) {
+    if (fast[static_cast<std::size_t>(b)]) plan.fast.push_back(b);
+    else slow[static_cast<std::size_t>(b)] = 1;
+  }
+  plan.rest = mesh::make_part(forest, slow);
   plan.region = mesh::make_part(forest, region);
   return plan;
 }

@@ -10,9 +10,12 @@ template <int Dim>
 struct SubStepPlan {
   int whole = 1;                    ///< sub-steps of the mesh
   int inner = 1;                    ///< of the region, in each of them
-  std::vector<int> slow;            ///< leaves that are not too fast for `whole` sub-steps; with inner > 1 only
-  std::vector<int> fast;            ///< the others
-  mesh::ForestPart<Dim> region;     ///< the fast ones and those around them; empty with inner = 1
+  std::vector<int> fast;            ///< leaves that are too fast for `whole` sub-steps; empty with inner = 1, as the following
+  mesh::ForestPart<Dim> rest;       ///< all others
+  mesh::ForestPart<Dim> region;     ///< the fast ones and a ring around them
+  /// Water swept [m] that the fast leaves show their neighbours while these take the long sub-step, for want of a true one:
+  /// the region is so wide that nothing which is kept depends on it, not even if it is no number.
+  double unknown_flux = 0;
   int total() const { return whole * inner; }
 };
 

@@ -99,6 +99,20 @@ std::vector<char> with_neighbours(const Forest<Dim>& forest, const std::vector<c
 }
 
 template <int Dim>
+void complete_jumps(const Forest<Dim>& forest, std::vector<char>& chosen) {
+  const std::vector<char> before = chosen;
+  for (const CoarseFace& face : forest.coarse_faces()) {
+    if (!before[static_cast<std::size_t>(face.leaf)]) continue;
+    bool any = false;
+    const auto look = [&](int child) { any = any || before[static_cast<std::size_t>(child)]; };
+    for_children_at(forest.block(face.parent), face.axis, 1 - face.side, look);
+    if (!any) continue;
+    for_children_at(forest.block(face.parent), face.axis, 1 - face.side,
+                    [&](int child) { chosen[static_cast<std::size_t>(child)] = 1; });
+  }
+}
+
+template <int Dim>
 ForestPart<Dim> make_part(const Forest<Dim>& forest, const std::vector<char>& chosen) {
   ForestPart<Dim> part;
   const auto n_blocks = static_cast<std::size_t>(forest.n_blocks());
@@ -128,6 +142,8 @@ ForestPart<Dim> make_part(const Forest<Dim>& forest, const std::vector<char>& ch
 
 template std::vector<char> with_neighbours<2>(const Forest<2>&, const std::vector<char>&);
 template std::vector<char> with_neighbours<3>(const Forest<3>&, const std::vector<char>&);
+template void complete_jumps<2>(const Forest<2>&, std::vector<char>&);
+template void complete_jumps<3>(const Forest<3>&, std::vector<char>&);
 template ForestPart<2> make_part<2>(const Forest<2>&, const std::vector<char>&);
 template ForestPart<3> make_part<3>(const Forest<3>&, const std::vector<char>&);
 

@@ -29,6 +29,11 @@ struct ForestPart {
 template <int Dim>
 std::vector<char> with_neighbours(const Forest<Dim>& forest, const std::vector<char>& chosen);
 
+/// Adds to chosen leaves (by block), of each face between levels whose coarse leaf and some finer one are chosen, all finer
+/// leaves. One pass: what it adds completes no further face.
+template <int Dim>
+void complete_jumps(const Forest<Dim>& forest, std::vector<char>& chosen);
+
 /// The part made of the chosen leaves (by block).
 template <int Dim>
 ForestPart<Dim> make_part(const Forest<Dim>& forest, const std::vector<char>& chosen);

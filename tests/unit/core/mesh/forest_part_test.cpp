@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 namespace seaway::mesh {
@@ -55,6 +56,30 @@ void neighbours_are_those_that_touch(bool periodic) {
 TEST(ForestPart, NeighboursAreTheLeavesThatTouchIn2D) { neighbours_are_those_that_touch<2>(false); }
 TEST(ForestPart, NeighboursAreTheLeavesThatTouchIn3D) { neighbours_are_those_that_touch<3>(false); }
 TEST(ForestPart, NeighboursMeetAcrossPeriodicSides) { neighbours_are_those_that_touch<2>(true); }
+
+/// Nothing but finer leaves on the faces of chosen coarse ones with some chosen finer leaf, and all of those.
+template <int Dim>
+void jumps_are_completed(unsigned pick) {
+  const Forest<Dim> f = uneven<Dim>(false);
+  std::vector<char> chosen(static_cast<std::size_t>(f.n_blocks()), 0);
+  for (std::size_t i = 0; i < f.leaves().size(); ++i)
+    chosen[static_cast<std::size_t>(f.leaves()[i])] = ((i * 2654435761U) >> 7) % pick == 0;
+  std::vector<char> expected = chosen, completed = chosen;
+  for (const CoarseFace& face : f.coarse_faces()) {
+    std::vector<int> finer;
+    for (const int b : f.block(face.parent).child)
+      if (f.block(b).neighbour[static_cast<std::size_t>(face_neighbour<Dim>(face.axis, 1 - face.side))] == coarser_neighbour)
+        finer.push_back(b);
+    const auto is_chosen = [&](int b) { return chosen[static_cast<std::size_t>(b)] != 0; };
+    if (is_chosen(face.leaf) && std::any_of(finer.begin(), finer.end(), is_chosen))
+      for (const int b : finer) expected[static_cast<std::size_t>(b)] = 1;
+  }
+  complete_jumps(f, completed);
+  EXPECT_EQ(completed, expected);
+  EXPECT_NE(completed, chosen);
+}
+TEST(ForestPart, JumpsBetweenChosenLeavesAreCompletedIn2D) { jumps_are_completed<2>(2); }
+TEST(ForestPart, JumpsBetweenChosenLeavesAreCompletedIn3D) { jumps_are_completed<3>(3); }
 
 template <int Dim>
 void sides_are_cut_for_both(unsigned pick) {
