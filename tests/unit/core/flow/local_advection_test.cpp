@@ -243,7 +243,7 @@ void unknown_fluxes_do_not_count(const Forest<Dim>& forest, int stride) {
 }
 TEST(LocalAdvection, KeepsNothingOfUnknownFluxesBesideLevelJumps) { unknown_fluxes_do_not_count<2>(jumpy<2>(), 3); }
 TEST(LocalAdvection, KeepsNothingOfUnknownFluxesOnThreeLevels) { unknown_fluxes_do_not_count<2>(scattered<2>(2, 0.35), 7); }
-TEST(LocalAdvection, KeepsNothingOfUnknownFluxesIn3D) { unknown_fluxes_do_not_count<3>(scattered<3>(1, 0.3), 29); }
+TEST(LocalAdvection, KeepsNothingOfUnknownFluxesIn3D) { unknown_fluxes_do_not_count<3>(scattered<3>(1, 0.3), 53); }
 
 /// Outside the region and on its sides the flow is what a sub-step of the whole mesh makes of it.
 template <int Dim>
@@ -274,7 +274,7 @@ void rest_is_that_of_the_whole(const Forest<Dim>& forest, int stride) {
 }
 TEST(LocalAdvection, LeavesTheRestAsTheWholeMeshHasItBesideLevelJumps) { rest_is_that_of_the_whole<2>(jumpy<2>(), 2); }
 TEST(LocalAdvection, LeavesTheRestAsTheWholeMeshHasItOnThreeLevels) { rest_is_that_of_the_whole<2>(scattered<2>(2, 0.35), 3); }
-TEST(LocalAdvection, LeavesTheRestAsTheWholeMeshHasItIn3D) { rest_is_that_of_the_whole<3>(scattered<3>(1, 0.3), 19); }
+TEST(LocalAdvection, LeavesTheRestAsTheWholeMeshHasItIn3D) { rest_is_that_of_the_whole<3>(scattered<3>(1, 0.3), 37); }
 
 TEST(LocalAdvection, GivesTheSameBitsOnAnyNumberOfThreads) {
   const auto one = jumpy<2>(1), three = jumpy<2>(3);
