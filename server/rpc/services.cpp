@@ -43,10 +43,12 @@ auto open_stream(const Backend& b, grpc::CallbackServerContext* context, const c
 
 grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* context,
                                                  const v1::CreateJobRequest* request, v1::CreateJobResponse* response) {
-  return answer(b_, context, {Role::submitter, "CreateJob"}, "cases/" + request->case_().title(), [b = b_, request, response] {
-    jobs::Submitted submitted = b.queue.submit(*request);
-    *response->mutable_report() = std::move(submitted.report);
-    if (submitted.has_job) *response->mutable_job() = to_proto(submitted.job);
+  return answer_later(b_, context, {Role::submitter, "CreateJob"}, "cases/" + request->case_().title(), [b = b_, request, response](Finish finish) {
+    b.queue.submit_later(*request, [response, finish = std::move(finish)](jobs::Submitted submitted, const std::exception_ptr& error) {
+      *response->mutable_report() = std::move(submitted.report);
+      if (submitted.has_job) *response->mutable_job() = to_proto(submitted.job);
+      finish(error);
+    });
   });
 }
 
