@@ -23,15 +23,15 @@ void fill_header(const store::Job& job, const std::vector<store::Channel>& chann
   *header.mutable_channels() = to_proto(channels);
 }
 
-/// Admits a stream or answers at once that there are too many, or that it is not allowed.
+/// Admits a stream or answers at once that it is not allowed, or that there are too many.
 template <class Call, class... Args>
 auto open_stream(const Backend& b, grpc::CallbackServerContext* context, const char* method, const std::string& target,
                  Args&&... args) {
   auto call = std::make_shared<Call>(context, b.registry, b.work, b.streams, std::forward<Args>(args)...);
   auto* reactor = call.get();
-  if (b.registry.size() >= static_cast<std::size_t>(b.max_calls)) reactor->refuse_too_many();
   try {
-    b.access.check(*context, Role::viewer, method, target);
+    const std::string who = b.access.check(*context, Role::viewer, method, target);
+    reactor->admit(b.seats.take(b.access.asks() ? who : context->peer()));
   } catch (...) {
     reactor->refuse(to_status(std::current_exception()));
   }
