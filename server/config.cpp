@@ -93,7 +93,9 @@ Settings load_settings(const Flags& flags) {
                                          m.workers().max_attempts_without_progress(), 1, 1000);
   if (m.limits().has_queued_jobs())
     s.limits.queued_jobs = check.count("limits.queued_jobs", m.limits().queued_jobs(), 1, 1'000'000);
-  if (m.limits().has_streams()) s.rpc.max_calls = check.count("limits.streams", m.limits().streams(), 1, 100'000);
+  if (m.limits().has_streams()) s.rpc.max_streams = check.count("limits.streams", m.limits().streams(), 1, 100'000);
+  if (m.limits().has_streams_per_caller())
+    s.rpc.max_streams_per_caller = check.count("limits.streams_per_caller", m.limits().streams_per_caller(), 1, 100'000);
   if (m.limits().has_job_cpu_s())
     s.limits.job_cpu_s = check.number("limits.job_cpu_s", m.limits().job_cpu_s(), convert::not_negative);
   if (m.metrics().has_address()) s.metrics_address = m.metrics().address();

@@ -4,8 +4,6 @@
 #include <malloc.h>
 #include <pthread.h>
 #include <signal.h>
-#include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +17,7 @@
 #include "proto/yaml.hpp"
 #include "server/config.hpp"
 #include "server/http/metrics_listener.hpp"
+#include "server/log.hpp"
 #include "server/maintenance.hpp"
 #include "server/metrics/metrics.hpp"
 #include "server/readiness.hpp"
@@ -27,19 +26,6 @@ namespace seaway::server {
 namespace {
 
 constexpr unsigned longest_drain_s = 9;
-
-std::shared_ptr<spdlog::logger> make_log(const Settings& settings) {
-  std::shared_ptr<spdlog::sinks::sink> sink;
-  if (settings.log_file.empty())
-    sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
-  else
-    sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(settings.log_file);
-  auto log = std::make_shared<spdlog::logger>("seawayd", std::move(sink));
-  log->set_level(spdlog::level::from_str(settings.log_level));
-  log->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z level=%l %v");
-  log->flush_on(spdlog::level::info);
-  return log;
-}
 
 void write_address(const std::string& file, const std::string& address) {
   const std::string aside = file + ".new";
@@ -235,7 +221,7 @@ int run_daemon(int argc, char** argv, const jobs::Solver& solver, bool processes
     if (backing_up->parsed()) return backup(settings.data_dir, backup_file);
     if (verifying->parsed()) return verify(settings.data_dir);
     if (auditing->parsed()) return audit(settings.data_dir, audit_rows, only_denied);
-    const auto log = make_log(settings);
+    const auto log = make_log(settings.log_file, settings.log_level);
     try {
       serve(settings, address_file, solver, log);
       return 0;

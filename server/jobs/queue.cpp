@@ -2,6 +2,8 @@
 #include "server/jobs/queue.hpp"
 
 #include <algorithm>
+#include <future>
+#include <memory>
 #include <random>
 
 #include "core/base/error.hpp"
@@ -17,20 +19,30 @@ namespace {
 using store::Reason;
 using store::State;
 
-/// The known job if it was made from the same case.
-Submitted same_job(store::Job job, const std::string& spec, const std::string& digest) {
-  if (job.digest != digest) {
-    std::vector<sim::Diagnostic> problems;
-    for (const std::string& field : differing_fields(job.spec, spec))
-      problems.push_back({sim::Diagnostic::Severity::error, field, "differs from job " + job.uid,
-                          "a request id belongs to one case: use a new one"});
-    if (problems.empty()) problems.push_back({sim::Diagnostic::Severity::error, "request_id", "is in use by job " + job.uid, ""});
-    throw convert::InputError("REQUEST_ID_REUSED", std::move(problems));
-  }
-  Submitted out;
-  out.has_job = true;
-  out.job = std::move(job);
-  return out;
+/// Throws for a request id that belongs to a job of another case.
+void require_same(const store::Job& known, const store::NewJob& asked) {
+  if (known.digest == asked.digest) return;
+  std::vector<sim::Diagnostic> problems;
+  for (const std::string& field : differing_fields(known.spec, asked.spec))
+    problems.push_back({sim::Diagnostic::Severity::error, field, "differs from job " + known.uid,
+                        "a request id belongs to one case: use a new one"});
+  if (problems.empty()) problems.push_back({sim::Diagnostic::Severity::error, "request_id", "is in use by job " + known.uid, ""});
+  throw convert::InputError("REQUEST_ID_REUSED", std::move(problems));
+}
+
+/// All of it but its uid.
+store::NewJob new_job(const v1::CreateJobRequest& request) {
+  store::NewJob job;
+  job.spec = encode_spec(request.case_(), request.files());
+  job.digest = sha256_hex(job.spec);
+  job.request_id = lower(request.request_id());
+  job.title = request.case_().title();
+  job.code_version = code_version();
+  job.priority = request.priority();
+  job.labels = {request.labels().begin(), request.labels().end()};
+  job.note = request.note();
+  job.held = request.start_held();
+  return job;
 }
 
 }  // namespace
@@ -56,37 +68,42 @@ Queue::Queue(QueueLimits limits, Solver solver, const Workspace& workspace, stor
       stop_(std::move(stop)), kill_(std::move(kill)), make_uid_(std::move(make_uid)) {}
 
 Submitted Queue::submit(const v1::CreateJobRequest& request) {
+  const auto submitted = std::make_shared<std::promise<Submitted>>();
+  auto result = submitted->get_future();
+  submit_later(request, [submitted](Submitted job, const std::exception_ptr& error) {
+    if (error)
+      submitted->set_exception(error);
+    else
+      submitted->set_value(std::move(job));
+  });
+  return result.get();
+}
+
+void Queue::submit_later(const v1::CreateJobRequest& request, SubmitDone done) {
   if (!request.has_case_()) refuse("INVALID_REQUEST", "case", "is missing", "send the case to run");
-  Submitted out;
   if (!request.validate_only() && !is_uuid(request.request_id()))
     refuse("INVALID_REQUEST", "request_id", request.request_id().empty() ? "is missing" : "is not a UUID",
            "make a new UUID for each submit and send the same one again after a lost answer");
   check_traits("", request.priority(), {request.labels().begin(), request.labels().end()}, request.note());
   check_files(request.files());
-  store::NewJob job;
-  job.spec = encode_spec(request.case_(), request.files());
-  job.digest = sha256_hex(job.spec);
-  out.report = report_of(request.case_(), request.files(), job.digest);
-  if (request.validate_only()) return out;
-  require_runnable(out.report);
-  job.uid = make_uid_();
-  job.request_id = lower(request.request_id());
-  job.title = request.case_().title();
-  job.code_version = code_version();
-  job.priority = request.priority();
-  job.labels = {request.labels().begin(), request.labels().end()};
-  job.note = request.note();
-  job.held = request.start_held();
-  store::Created created = store_.create_limited(job, limits_.queued_jobs);
-  if (created.existed) {
-    Submitted known = same_job(std::move(created.job), job.spec, job.digest);
-    known.report = std::move(out.report);
-    return known;
-  }
-  if (!job.held) wake_();
-  out.has_job = true;
-  out.job = std::move(created.job);
-  return out;
+  const auto job = std::make_shared<store::NewJob>(new_job(request));
+  v1::CaseReport report = report_of(request.case_(), request.files(), job->digest);
+  if (request.validate_only()) return done({false, {}, std::move(report)}, nullptr);
+  require_runnable(report);
+  job->uid = make_uid_();
+  store_.create_later(job, limits_.queued_jobs,
+                      [this, job, report = std::move(report), done = std::move(done)](store::Created created, std::exception_ptr error) {
+    Submitted out{true, {}, report};
+    try {
+      if (error) std::rethrow_exception(error);
+      if (created.existed) require_same(created.job, *job);
+      if (!created.existed && !job->held) wake_();
+      out.job = std::move(created.job);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    done(std::move(out), error);
+  });
 }
 
 void Queue::require_runnable(const v1::CaseReport& report) const {

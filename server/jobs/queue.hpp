@@ -47,6 +47,10 @@ class Queue {
   /// Durable when it returns. Throws convert::InputError for a wrong case, a malformed request id, or a known
   /// one with another case (naming the fields); resource_exhausted when a limit is reached.
   Submitted submit(const v1::CreateJobRequest& request);
+  /// As submit(), but returns when the case has been checked. What is wrong with it is thrown; otherwise `done` is called
+  /// once, when the job is durable or could not be stored, from another thread. It must be quick and must not throw.
+  using SubmitDone = std::function<void(Submitted submitted, const std::exception_ptr& error)>;
+  void submit_later(const v1::CreateJobRequest& request, SubmitDone done);
   v1::CaseReport validate(const v1::Case& message, const Files& files);
   /// All jobs of a sweep or none (sweeps.cpp). Throws as submit().
   SubmittedSweep submit_sweep(const v1::CreateSweepRequest& request);

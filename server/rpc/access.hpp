@@ -37,6 +37,8 @@ class Access {
   /// Credentials to listen with at `address`. Throws Error(invalid_argument) for an address that others can
   /// reach without TLS and principals, and for files that cannot be read.
   std::shared_ptr<grpc::ServerCredentials> credentials(const std::string& address) const;
+  /// Whether callers must say who they are.
+  bool asks() const { return !settings_.principals.empty(); }
   /// Name of who calls. Throws Denied if there is no such principal or its role is too small; that is recorded.
   std::string check(const grpc::ServerContextBase& context, Role needed, const std::string& method,
                     const std::string& target) const;

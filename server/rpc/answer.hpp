@@ -19,19 +19,39 @@ struct Method {
   const char* name;
 };
 
+inline std::string message_of(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+}
+
+/// As answer(), for work that calls the Finish that it is given when it is done.
+template <class Work>
+grpc::ServerUnaryReactor* answer_later(const Backend& b, grpc::CallbackServerContext* context, Method method,
+                                       const std::string& target, Work work) {
+  return run_unary(context, b.registry, b.work, [b, context, method, target, work = std::move(work)](Finish finish) mutable {
+    const std::string who = b.access.check(*context, method.role, method.name, target);
+    const Finish record = [b, context, method, target, who, finish](const std::exception_ptr& error) {
+      if (method.role != Role::viewer) b.access.record(*context, who, method.name, target, error ? message_of(error) : "OK");
+      finish(error);
+    };
+    try {
+      work(record);
+    } catch (...) {
+      record(std::current_exception());
+    }
+  });
+}
+
 /// What changes something is recorded, with what came of it.
 template <class Work>
 grpc::ServerUnaryReactor* answer(const Backend& b, grpc::CallbackServerContext* context, Method method,
                                  const std::string& target, Work work) {
-  return run_unary(context, b.registry, b.work, [b, context, method, target, work = std::move(work)]() mutable {
-    const std::string who = b.access.check(*context, method.role, method.name, target);
-    try {
-      work();
-    } catch (const std::exception& error) {
-      if (method.role != Role::viewer) b.access.record(*context, who, method.name, target, error.what());
-      throw;
-    }
-    if (method.role != Role::viewer) b.access.record(*context, who, method.name, target, "OK");
+  return answer_later(b, context, method, target, [work = std::move(work)](const Finish& finish) mutable {
+    work();
+    finish(nullptr);
   });
 }
 

@@ -35,7 +35,8 @@ void set_keepalive(grpc::ServerBuilder& builder) {
 
 struct Server::Parts {
   Parts(const ServerSettings& s, jobs::Queue& queue, store::JobStore& store)
-      : work(s.work_threads, 4096),
+      : seats(s.max_streams, s.max_streams_per_caller),
+        work(s.work_threads, 4096),
         feeds(store),
         access(s.access, store),
         facts(s.facts),
@@ -49,7 +50,7 @@ struct Server::Parts {
         cases(backend(s, queue, store)) {}
 
   Backend backend(const ServerSettings& s, jobs::Queue& queue, store::JobStore& store) {
-    return {queue, store, feeds, registry, work, s.max_calls, s.streams, access, facts};
+    return {queue, store, feeds, registry, work, seats, s.streams, access, facts};
   }
 
   void tick_loop(std::stop_token stop, const store::JobStore& store) {
@@ -62,6 +63,7 @@ struct Server::Parts {
     }
   }
 
+  Seats seats;  // first: the work queue may hold the last of a call
   Registry registry;
   WorkQueue work;
   Feeds feeds;

@@ -17,7 +17,8 @@ namespace seaway::rpc {
 struct ServerSettings {
   std::string address = "127.0.0.1";  ///< loopback, unix:/path; others need access settings
   int port = 0;                       ///< 0: any free one; unused with unix:
-  int max_calls = 1000;
+  int max_streams = 1000;
+  int max_streams_per_caller = 200;  ///< a principal; a connection if there are none
   int work_threads = 16;  ///< they wait for commits: so many submits can share one
   StreamLimits streams;
   AccessSettings access;

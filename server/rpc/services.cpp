@@ -23,15 +23,15 @@ void fill_header(const store::Job& job, const std::vector<store::Channel>& chann
   *header.mutable_channels() = to_proto(channels);
 }
 
-/// Admits a stream or answers at once that there are too many, or that it is not allowed.
+/// Admits a stream or answers at once that it is not allowed, or that there are too many.
 template <class Call, class... Args>
 auto open_stream(const Backend& b, grpc::CallbackServerContext* context, const char* method, const std::string& target,
                  Args&&... args) {
   auto call = std::make_shared<Call>(context, b.registry, b.work, b.streams, std::forward<Args>(args)...);
   auto* reactor = call.get();
-  if (b.registry.size() >= static_cast<std::size_t>(b.max_calls)) reactor->refuse_too_many();
   try {
-    b.access.check(*context, Role::viewer, method, target);
+    const std::string who = b.access.check(*context, Role::viewer, method, target);
+    reactor->admit(b.seats.take(b.access.asks() ? who : context->peer()));
   } catch (...) {
     reactor->refuse(to_status(std::current_exception()));
   }
@@ -43,10 +43,12 @@ auto open_stream(const Backend& b, grpc::CallbackServerContext* context, const c
 
 grpc::ServerUnaryReactor* JobsService::CreateJob(grpc::CallbackServerContext* context,
                                                  const v1::CreateJobRequest* request, v1::CreateJobResponse* response) {
-  return answer(b_, context, {Role::submitter, "CreateJob"}, "cases/" + request->case_().title(), [b = b_, request, response] {
-    jobs::Submitted submitted = b.queue.submit(*request);
-    *response->mutable_report() = std::move(submitted.report);
-    if (submitted.has_job) *response->mutable_job() = to_proto(submitted.job);
+  return answer_later(b_, context, {Role::submitter, "CreateJob"}, "cases/" + request->case_().title(), [b = b_, request, response](Finish finish) {
+    b.queue.submit_later(*request, [response, finish = std::move(finish)](jobs::Submitted submitted, const std::exception_ptr& error) {
+      *response->mutable_report() = std::move(submitted.report);
+      if (submitted.has_job) *response->mutable_job() = to_proto(submitted.job);
+      finish(error);
+    });
   });
 }
 

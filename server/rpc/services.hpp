@@ -8,6 +8,7 @@
 #include "server/rpc/facts.hpp"
 #include "server/rpc/feed.hpp"
 #include "server/rpc/registry.hpp"
+#include "server/rpc/seats.hpp"
 #include "server/rpc/stream_call.hpp"
 #include "server/rpc/work_queue.hpp"
 
@@ -20,7 +21,7 @@ struct Backend {
   Feeds& feeds;
   Registry& registry;
   WorkQueue& work;
-  int max_calls = 1000;  ///< live calls, streams included
+  Seats& seats;
   StreamLimits streams;
   const Access& access;
   const ServerFacts& facts;

@@ -39,11 +39,8 @@ class StreamCall : public grpc::ServerWriteReactor<Response>,
     schedule();
   }
 
-  /// Before start(): the call only says that there are too many.
-  void refuse_too_many() {
-    refuse(make_status(grpc::StatusCode::RESOURCE_EXHAUSTED, "TOO_MANY_STREAMS", "too many live calls; try again later"));
-  }
-
+  /// Before start(): the place that the call holds until its end; or why it only says that it is refused.
+  void admit(std::shared_ptr<const void> seat) { seat_ = std::move(seat); }
   void refuse(grpc::Status status) { ending_ = std::move(status); }
 
   void close() override {
@@ -166,6 +163,7 @@ class StreamCall : public grpc::ServerWriteReactor<Response>,
   const StreamLimits limits_;
   const Clock::time_point born_ = Clock::now();
   std::shared_ptr<StreamCall> self_;
+  std::shared_ptr<const void> seat_;
   Response response_;  // touched by pump() only, and by gRPC while writing_
   std::mutex mutex_;
   bool scheduled_ = false, writing_ = false, finished_ = false;  // guarded by mutex_

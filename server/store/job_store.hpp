@@ -10,7 +10,9 @@
 // data_loss (what was read is damaged), failed_precondition.
 #pragma once
 
+#include <exception>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -46,6 +48,10 @@ class JobStore {
   virtual Created create(const NewJob& job) = 0;
   /// Throws failed_precondition if the job of this request has been deleted. Refuses with resource_exhausted while `limit` or more jobs are queued; 0: no limit.
   virtual Created create_limited(const NewJob& job, int limit) = 0;
+  /// As create_limited() without waiting: `done` is called once, when the job is durable or cannot be made, from the store's
+  /// own thread. It must be quick and must not throw.
+  using CreateDone = std::function<void(Created created, const std::exception_ptr& error)>;
+  virtual void create_later(std::shared_ptr<const NewJob> job, int limit, CreateDone done) = 0;
   virtual std::optional<Job> find(const std::string& uid) const = 0;
   /// Newest first, without their spec.
   virtual std::vector<Job> list(const ListQuery& query) const = 0;

@@ -45,7 +45,8 @@ Job read_job(Database& db, const Statement& row, bool with_spec) {
 }
 
 std::optional<Job> find_by(Database& db, std::string_view column, const std::string& value) {
-  const std::string sql = "SELECT " + std::string(job_columns) + ", spec FROM jobs WHERE " + std::string(column) + " = ?";
+  const std::string sql = "SELECT " + std::string(job_columns) + ", (SELECT spec FROM case_specs WHERE digest = jobs.digest) " +
+                          "FROM jobs WHERE " + std::string(column) + " = ?";
   Statement query = db.prepare(sql);
   if (!query.bind(value).step()) return std::nullopt;
   return read_job(db, query, true);
@@ -73,6 +74,21 @@ bool apply_move(Database& db, const std::string& uid, State from, State to, Reas
   return true;
 }
 
+/// One job more has this case.
+void keep_case(Database& db, const NewJob& job) {
+  db.prepare("UPDATE case_uses SET jobs = jobs + 1 WHERE digest = ?").bind(job.digest).run();
+  if (db.changes() > 0) return;
+  db.prepare("INSERT INTO case_uses (digest, jobs) VALUES (?, 1)").bind(job.digest).run();
+  db.prepare("INSERT INTO case_specs (digest, spec) VALUES (?, ?)").bind(job.digest, Statement::Blob{job.spec}).run();
+}
+
+/// One job less has this case.
+void release_case(Database& db, const std::string& digest) {
+  db.prepare("UPDATE case_uses SET jobs = jobs - 1 WHERE digest = ?").bind(digest).run();
+  db.prepare("DELETE FROM case_uses WHERE digest = ? AND jobs = 0").bind(digest).run();
+  if (db.changes() > 0) db.prepare("DELETE FROM case_specs WHERE digest = ?").bind(digest).run();
+}
+
 }  // namespace
 
 Created create(Database& db, const NewJob& job, int limit, std::int64_t now) {
@@ -89,13 +105,14 @@ Created create(Database& db, const NewJob& job, int limit, std::int64_t now) {
     if (query.step() && query.integer(0) >= limit)
       fail(ErrorCode::resource_exhausted, "{} jobs are waiting, which is the limit; submit again later", limit);
   }
-  db.prepare("INSERT INTO jobs (uid, request_id, title, state, digest, code_version, spec, created_ns, updated_ns, "
-             "priority, note, base_uid, take_mark, rank) SELECT ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?8, ?9, ?10, ?11, value, "
-             "10 * ?9 - value FROM counters WHERE name = 'takes'")
+  db.prepare("INSERT INTO jobs (uid, request_id, title, state, digest, code_version, created_ns, updated_ns, "
+             "priority, note, base_uid, take_mark, rank) SELECT ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?7, ?8, ?9, ?10, value, "
+             "10 * ?8 - value FROM counters WHERE name = 'takes'")
       .bind(job.uid, job.request_id, job.title, static_cast<int>(job.held ? State::held : State::queued), job.digest,
-            job.code_version, Statement::Blob{job.spec}, now, job.priority, job.note, job.base_uid)
+            job.code_version, now, job.priority, job.note, job.base_uid)
       .run();
   const std::int64_t id = db.last_row_id();
+  keep_case(db, job);
   set_labels(db, id, job.labels);
   add_event(db, job.uid, "STATE", job.held ? "HELD" : "QUEUED", now);
   add_change(db, job.uid, "CREATED", now);
@@ -219,6 +236,7 @@ bool erase(Database& db, const std::string& uid, std::int64_t now) {
       .bind(job->request_id, uid, now)
       .run();
   db.prepare("DELETE FROM jobs WHERE id = ?").bind(job->id).run();
+  release_case(db, job->digest);
   drop_empty_sweep(db, uid);
   return true;
 }

@@ -98,6 +98,16 @@ class SqliteStore final : public JobStore {
     return out;
   }
 
+  void create_later(std::shared_ptr<const NewJob> job, int limit, CreateDone done) override {
+    const auto created = std::make_shared<Created>();
+    writer_.call_later(
+        [this, job = std::move(job), created, limit](Database& db, std::set<std::string>& touched) {
+          *created = rows::create(db, *job, limit, now_ns_());
+          if (!created->existed) touched.insert(job->uid);
+        },
+        [created, done = std::move(done)](const std::exception_ptr& error) { done(std::move(*created), error); });
+  }
+
   std::optional<Job> find(const std::string& uid) const override {
     return readers_.use([&](Database& db) { return rows::find(db, uid); });
   }

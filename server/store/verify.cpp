@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "server/store/chunk.hpp"
 #include "server/store/database.hpp"
+#include "server/store/migrations.hpp"
 #include "server/store/sqlite_rows.hpp"
 
 namespace seaway::store {
@@ -60,6 +61,19 @@ void check_histories(Database& db, Verification& out) {
   }
 }
 
+/// Every job has its case, and each case is counted as often as it is had.
+void check_cases(Database& db, Verification& out) {
+  Statement query = db.prepare(
+      "SELECT min(uid), count(*), EXISTS (SELECT 1 FROM case_specs WHERE digest = jobs.digest), "
+      "coalesce((SELECT jobs FROM case_uses WHERE digest = jobs.digest), 0) FROM jobs GROUP BY digest");
+  while (query.step()) {
+    if (query.integer(2) == 0) out.problems.push_back("case_specs: the case of job " + query.text(0) + " is missing");
+    if (query.integer(1) != query.integer(3))
+      out.problems.push_back(fmt::format("case_uses: the case of job {} is counted {} times instead of {}", query.text(0),
+                                         query.integer(3), query.integer(1)));
+  }
+}
+
 }  // namespace
 
 Verification verify_database(const std::string& path, const std::string& vfs) {
@@ -69,6 +83,7 @@ Verification verify_database(const std::string& path, const std::string& vfs) {
   db.execute("BEGIN");  // one moment of it, whatever a server does
   check_pages(db, out);
   if (out.problems.empty()) check_histories(db, out);
+  if (out.problems.empty() && version_of(db) >= 5) check_cases(db, out);  // before that each job had a case of its own
   db.execute("COMMIT");
   return out;
 }

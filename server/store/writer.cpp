@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "server/store/writer.hpp"
 
-#include <exception>
+#include <future>
+#include <memory>
+#include <utility>
 
 #include "core/base/error.hpp"
 
@@ -52,26 +54,37 @@ void Writer::give_up(const std::string& why) {
 }
 
 void Writer::call(Change change) {
-  auto done = std::make_shared<std::promise<void>>();
-  auto result = done->get_future();
-  {
-    const std::lock_guard lock(mutex_);
-    if (tasks_.empty()) oldest_ = std::chrono::steady_clock::now();
-    tasks_.push_back({std::move(change), std::move(done)});
-    hurry_ = true;
-  }
-  wake_.notify_all();
-  if (!own_thread_) commit(tasks_);
+  const auto durable = std::make_shared<std::promise<void>>();  // the writer may still touch it when the future is ready
+  auto result = durable->get_future();
+  call_later(std::move(change), [durable](const std::exception_ptr& error) {
+    if (error)
+      durable->set_exception(error);
+    else
+      durable->set_value();
+  });
   result.get();
 }
 
-void Writer::post(Change change) {
+void Writer::call_later(Change change, Done done) {
+  bool first = false;
   {
     const std::lock_guard lock(mutex_);
-    if (tasks_.empty()) oldest_ = std::chrono::steady_clock::now();
+    first = !std::exchange(hurry_, true);
+    tasks_.push_back({std::move(change), std::move(done)});
+  }
+  if (first) wake_.notify_one();  // it has been told already otherwise
+  if (!own_thread_) commit(tasks_);
+}
+
+void Writer::post(Change change) {
+  bool first = false;
+  {
+    const std::lock_guard lock(mutex_);
+    first = tasks_.empty();
+    if (first) oldest_ = std::chrono::steady_clock::now();
     tasks_.push_back({std::move(change), nullptr});
   }
-  wake_.notify_all();
+  if (first) wake_.notify_one();
 }
 
 void Writer::flush() {
@@ -104,11 +117,7 @@ void Writer::publish(std::deque<Task>& batch, const std::set<std::string>& touch
   // Listeners hear of it before the caller of call() goes on, so that they never lag behind an answer.
   committed_(touched);
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    if (!batch[i].done) continue;
-    if (failures[i])
-      batch[i].done->set_exception(failures[i]);
-    else
-      batch[i].done->set_value();
+    if (batch[i].done) batch[i].done(failures[i]);
   }
 }
 
@@ -121,7 +130,7 @@ bool Writer::commit(std::deque<Task>& batch) {
     std::deque<Task> posted;
     for (Task& task : batch) {
       if (task.done)
-        task.done->set_exception(why);
+        task.done(why);
       else
         posted.push_back(std::move(task));
     }

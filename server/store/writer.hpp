@@ -9,8 +9,6 @@
 #include <deque>
 #include <exception>
 #include <functional>
-#include <future>
-#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
@@ -41,8 +39,12 @@ class Writer {
   /// Commits what is waiting.
   ~Writer();
 
+  /// Called once, after the commit: without an error, the change is durable.
+  using Done = std::function<void(const std::exception_ptr& error)>;
   /// Returns when the change is durable; an exception of the change undoes it alone and comes out here.
   void call(Change change);
+  /// As call() without waiting: `done` hears of the end, from the writer's thread. It must be quick and must not throw.
+  void call_later(Change change, Done done);
   /// Queues the change. Changes happen in the order of post() and call(). If the disk refuses, it is tried
   /// again until it succeeds or the writer ends; a change that throws Error(internal) is dropped.
   void post(Change change);
@@ -54,7 +56,7 @@ class Writer {
  private:
   struct Task {
     Change change;
-    std::shared_ptr<std::promise<void>> done;  ///< null for posted ones
+    Done done;  ///< none for posted ones
   };
   void loop();
   bool commit(std::deque<Task>& batch);

@@ -32,12 +32,14 @@ void fill_database(const std::string& folder, int jobs) {
   store::Database db(folder + "/data/seaway.db", store::Database::Role::writer);
   store::migrate(db);
   db.execute("BEGIN");
-  db.prepare("INSERT INTO jobs (uid, request_id, title, state, digest, code_version, spec, created_ns, updated_ns, ended_ns) "
+  db.prepare("INSERT INTO jobs (uid, request_id, title, state, digest, code_version, created_ns, updated_ns, ended_ns) "
              "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < ?) "
              "SELECT 'job' || i, 'request' || i, 'Section ' || i, CASE WHEN i % 10 = 0 THEN 2 ELSE 5 END, "
-             "hex(randomblob(32)), '0.1.0', randomblob(900), i, i, CASE WHEN i % 10 = 0 THEN 0 ELSE i END FROM n")
+             "hex(randomblob(32)), '0.1.0', i, i, CASE WHEN i % 10 = 0 THEN 0 ELSE i END FROM n")
       .bind(jobs)
       .run();
+  db.execute("INSERT INTO case_specs SELECT digest, randomblob(900) FROM jobs");
+  db.execute("INSERT INTO case_uses SELECT digest, 1 FROM jobs");
   db.execute("INSERT INTO events (job, time_ns, attempt, kind, text) SELECT id, id, 1, 'STATE', 'QUEUED' FROM jobs");
   db.execute("INSERT INTO changes (uid, kind, state, time_ns) SELECT uid, 'CREATED', 1, id FROM jobs");
   db.execute("COMMIT");

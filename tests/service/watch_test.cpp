@@ -2,11 +2,13 @@
 // The promises of the service about streams: every sample once, in order, whatever happens to the connection.
 #include <grpcpp/create_channel.h>
 #include <grpcpp/grpcpp.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <thread>
 
+#include "server/jobs/workspace.hpp"
 #include "tests/support/test_service.hpp"
 
 namespace seaway {
@@ -120,33 +122,89 @@ TEST(Watch, ClientsThatDoNotReadDisturbNobody) {
   }
 }
 
-TEST(Watch, LiveCallsAreLimited) {
-  const FakeOptions fake = paused(0);
-  rpc::ServerSettings settings;
-  settings.max_calls = 3;
-  TestService service(fake, settings);
-  JobClient client(service.server->address());
-  const auto job = client.create(create_request(1, small_case())).job();
-  auto channel = grpc::CreateChannel(service.server->address(), grpc::InsecureChannelCredentials());
-  auto stub = v1::Telemetry::NewStub(channel);
-  v1::WatchSamplesRequest request;
-  request.set_job(job.name());
-  std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
-  std::vector<std::unique_ptr<grpc::ClientReader<v1::WatchSamplesResponse>>> readers;
-  int refused = 0;
-  for (int i = 0; i < 6; ++i) {
-    contexts.push_back(std::make_unique<grpc::ClientContext>());
-    readers.push_back(stub->WatchSamples(contexts.back().get(), request));
-    v1::WatchSamplesResponse first;
-    if (readers.back()->Read(&first)) continue;
-    EXPECT_EQ(readers.back()->Finish().error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-    readers.pop_back();
-    contexts.pop_back();
-    ++refused;
+/// Streams that stay open, each on the connection that it is given.
+class OpenStreams {
+ public:
+  explicit OpenStreams(std::string job) { request_.set_job(std::move(job)); }
+  ~OpenStreams() {
+    while (!readers_.empty()) end_one();
   }
-  EXPECT_GE(refused, 3);
-  for (auto& context : contexts) context->TryCancel();
-  for (auto& reader : readers) reader->Finish();
+  /// The status that a new stream ends with at once; OK if it stays open.
+  grpc::Status open(const std::shared_ptr<grpc::Channel>& channel, const std::string& token = "") {
+    auto context = std::make_unique<grpc::ClientContext>();
+    if (!token.empty()) context->AddMetadata("authorization", "Bearer " + token);
+    auto reader = v1::Telemetry::NewStub(channel)->WatchSamples(context.get(), request_);
+    v1::WatchSamplesResponse first;
+    if (!reader->Read(&first)) return reader->Finish();
+    contexts_.push_back(std::move(context));
+    readers_.push_back(std::move(reader));
+    return grpc::Status::OK;
+  }
+  void end_one() {
+    contexts_.back()->TryCancel();
+    readers_.back()->Finish();
+    readers_.pop_back();
+    contexts_.pop_back();
+  }
+
+ private:
+  v1::WatchSamplesRequest request_;
+  std::vector<std::unique_ptr<grpc::ClientContext>> contexts_;
+  std::vector<std::unique_ptr<grpc::ClientReader<v1::WatchSamplesResponse>>> readers_;
+};
+
+std::shared_ptr<grpc::Channel> connection(const TestService& service) {
+  grpc::ChannelArguments own;
+  own.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  return grpc::CreateCustomChannel(service.server->address(), grpc::InsecureChannelCredentials(), own);
+}
+
+void expect_refused(const grpc::Status& status, const std::string& text) {
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_THAT(status.error_message(), ::testing::HasSubstr(text));
+  EXPECT_THAT(status.error_details(), ::testing::HasSubstr("RetryInfo"));
+}
+
+TEST(Watch, StreamsAreLimitedInAll) {
+  rpc::ServerSettings settings;
+  settings.max_streams = 3;
+  TestService service(paused(0), settings);
+  JobClient client(service.server->address());
+  OpenStreams streams(client.create(create_request(1, small_case())).job().name());
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(streams.open(connection(service)).ok());
+  expect_refused(streams.open(connection(service)), "limits.streams)");
+  EXPECT_EQ(client.list({}).jobs_size(), 1) << "other calls go on";
+}
+
+TEST(Watch, StreamsOfOneConnectionAreLimitedAndTheirPlacesComeBack) {
+  rpc::ServerSettings settings;
+  settings.max_streams_per_caller = 2;
+  TestService service(paused(0), settings);
+  JobClient client(service.server->address());
+  OpenStreams streams(client.create(create_request(1, small_case())).job().name());
+  const auto first = connection(service), second = connection(service);
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(streams.open(first).ok());
+  expect_refused(streams.open(first), "limits.streams_per_caller); end some");
+  EXPECT_TRUE(streams.open(second).ok());
+  for (int i = 0; i < 2; ++i) streams.end_one();
+  grpc::Status again = streams.open(first);
+  for (int i = 0; i < 500 && !again.ok(); ++i) {  // the server hears of the end a little later
+    std::this_thread::sleep_for(std::chrono::milliseconds(10 * SEAWAY_SLOWDOWN));
+    again = streams.open(first);
+  }
+  EXPECT_TRUE(again.ok()) << again.error_message();
+}
+
+TEST(Watch, StreamsOfOnePrincipalAreLimitedOverAllItsConnections) {
+  rpc::ServerSettings settings;
+  settings.max_streams_per_caller = 2;
+  settings.access.principals = {{"ada", rpc::Role::admin, jobs::sha256_hex("a"), ""}, {"bob", rpc::Role::viewer, jobs::sha256_hex("b"), ""}};
+  TestService service(paused(0), settings);
+  JobClient client(connection(service), "a");
+  OpenStreams streams(client.create(create_request(1, small_case())).job().name());
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(streams.open(connection(service), "a").ok());
+  expect_refused(streams.open(connection(service), "a"), "ada holds 2 open streams");
+  EXPECT_TRUE(streams.open(connection(service), "b").ok());
 }
 
 }  // namespace

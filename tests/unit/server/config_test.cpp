@@ -5,11 +5,13 @@
 #include <google/protobuf/descriptor.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
 #include "proto/yaml.hpp"
 #include "seaway/v1/server_config.pb.h"
+#include "server/log.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace seaway::server {
@@ -27,11 +29,11 @@ std::string text_of(const std::string& file) {
 /// All that a configuration sets, but the folder and the program.
 std::string summary(const Settings& s) {
   const auto ms = [](std::chrono::milliseconds t) { return static_cast<long long>(t.count()); };
-  return fmt::format("{} {} | {} '{}' | {} {} {} {} | {} {} {} {} {} | {} {} {} | {} {} {} | {} {} {} | '{}' '{}' '{}' {} | {} {}", s.rpc.address,
+  return fmt::format("{} {} | {} '{}' | {} {} {} {} | {} {} {} {} {} | {} {} {} | {} {} {} | {} {} {} {} | '{}' '{}' '{}' {} | {} {}", s.rpc.address,
                      s.rpc.port, s.log_level, s.log_file, s.commit_interval_ms, s.keep_days, s.keep_changes, s.max_stalled_attempts,
                      s.pool.workers, s.pool.max_faults, s.processes, s.worker.run.threads, s.worker.run.checkpoint_interval_s,
                      ms(s.worker.lease), ms(s.worker.stall), ms(s.worker.stop_grace), s.worker.limits.memory_bytes,
-                     ms(s.worker.limits.wall), s.worker.limits.disk_bytes, s.limits.queued_jobs, s.limits.job_cpu_s, s.rpc.max_calls,
+                     ms(s.worker.limits.wall), s.worker.limits.disk_bytes, s.limits.queued_jobs, s.limits.job_cpu_s, s.rpc.max_streams, s.rpc.max_streams_per_caller,
                      s.rpc.access.certificate, s.rpc.access.key, s.rpc.access.client_ca, s.rpc.access.principals.size(),
                      s.metrics_address, s.metrics_port);
 }
@@ -79,7 +81,7 @@ TEST(Config, WrongValuesAreNamedWithTheirLine) {
                          {"workers", "max_attempts_without_progress", "0"}, {"workers", "max_faults", "0"},
                          {"workers", "stall_timeout_s", "0"}, {"workers", "lease_s", "0"}, {"workers", "stop_grace_s", "-1"},
                          {"workers", "memory_mb", "-1"}, {"workers", "wall_s", "-1"}, {"workers", "disk_mb", "-1"},
-                         {"workers", "executor", "slurm"}, {"limits", "queued_jobs", "0"}, {"limits", "streams", "0"},
+                         {"workers", "executor", "slurm"}, {"limits", "queued_jobs", "0"}, {"limits", "streams", "0"}, {"limits", "streams_per_caller", "0"},
                          {"limits", "job_cpu_s", "-1"}, {"metrics", "port", "65536"}, {"logging", "level", "loud"},
                          {"workers", "lease_s", "30 s"}, {"workers", "memory", "8000"}, {"storage", "keep_days", ".nan"}}) {
     Flags flags;
@@ -116,6 +118,17 @@ TEST(Config, WrongPrincipalsAreNamed) {
   EXPECT_THAT(why("{name: ada, role: admin}"), HasSubstr("needs either token_sha256 or subject"));
   EXPECT_THAT(why("{name: ada, role: admin, subject: ada, token_sha256: " + digest + "}"), HasSubstr("needs either"));
   EXPECT_THAT(why("{name: ada, role: admin, token_sha256: my-secret}"), HasSubstr("is no SHA-256"));
+}
+
+TEST(Log, AMessageIsOneLineWhateverItsText) {
+  const testing::TempFolder folder;
+  const auto log = make_log(folder / "log", "info");
+  log->warn("text=\"{}\"", "it failed\n2026-01-01 level=info all is well\x1b[2J, \u00fcberall");
+  log->debug("not shown");
+  log->flush();
+  const std::string text = text_of(folder / "log");
+  EXPECT_THAT(text, ::testing::EndsWith(" level=warning text=\"it failed\\n2026-01-01 level=info all is well\\x1b[2J, \u00fcberall\"\n"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
 }
 
 }  // namespace

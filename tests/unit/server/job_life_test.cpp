@@ -54,6 +54,30 @@ TEST_F(JobLife, LargerPrioritiesGoFirstAndEqualOnesInOrder) {
   EXPECT_EQ(order, "bcaed");
 }
 
+TEST_F(JobLife, ACaseIsStoredOnceAndGoesWithTheLastOfItsJobs) {
+  const auto cases = [&] {
+    Database db(folder_ / "jobs.db", Database::Role::reader);
+    Statement query = db.prepare("SELECT count(*) FROM case_specs");
+    query.step();
+    return query.integer(0);
+  };
+  NewJob other = job("c");
+  other.digest = "other digest";
+  other.spec = "other spec";
+  for (const NewJob& one : {job("a"), job("b"), other}) store_->create(one);
+  EXPECT_EQ(cases(), 2);
+  for (int i = 0; i < 3; ++i) end(store_->take_next()->uid);
+  EXPECT_TRUE(store_->erase("a"));
+  EXPECT_EQ(cases(), 2);
+  EXPECT_EQ(store_->find("b")->spec, "spec");
+  EXPECT_TRUE(store_->erase("b"));
+  EXPECT_EQ(cases(), 1);
+  EXPECT_EQ(store_->find("c")->spec, "other spec");
+  EXPECT_TRUE(verify_database(folder_ / "jobs.db").problems.empty());
+  Database(folder_ / "jobs.db", Database::Role::writer).execute("UPDATE case_uses SET jobs = 7");
+  EXPECT_THAT(verify_database(folder_ / "jobs.db").problems, ElementsAre(HasSubstr("case_uses: the case of job c is counted 7 times")));
+}
+
 TEST_F(JobLife, NoJobStarvesHoweverManyImportantOnesCome) {
   store_->create(job("low", 0));
   for (int started = 0;; ++started) {
@@ -262,7 +286,9 @@ TEST(Migrations, EveryOlderFileBecomesLikeANewOneAndIsCopiedFirst) {
     }
     {
       const auto store = open_sqlite_store(old);
-      EXPECT_EQ(store->take_next()->uid, "old");
+      const auto taken = store->take_next();
+      EXPECT_EQ(taken->uid, "old");
+      EXPECT_EQ(taken->spec, std::string(1, '\0'));
     }
     EXPECT_EQ(schema_of(old.path), schema_of(fresh.path));
     Database copy(old.path + ".schema" + std::to_string(version), Database::Role::reader);

@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "server/jobs/submission.hpp"
+#include "server/jobs/workspace.hpp"
 #include "tests/support/fake_cascade.hpp"
 #include "tests/support/service_jobs.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -23,8 +24,9 @@ using store::State;
 
 class Runner : public ::testing::Test {
  protected:
-    void create(const std::string& uid, const v1::Case& m) {
-    store_->create({uid, "r-" + uid, m.title(), "digest", "1", encode_spec(m, {})});
+  void create(const std::string& uid, const v1::Case& m) {
+    const std::string spec = encode_spec(m, {});
+    store_->create({uid, "r-" + uid, m.title(), sha256_hex(spec), "1", spec});
   }
   RunResult attempt(const Solver& solver, std::stop_token stop = {}) {
     const auto job = store_->take_next();
