@@ -245,20 +245,23 @@ void Multigrid<Dim>::smooth_again(int b, bool down) {
 }
 
 template <int Dim>
+template <class BlockAt>
+void Multigrid<Dim>::smooth_round(int count, const BlockAt& block_at, bool down) {
+  mesh::parallel_for(count, forest_.threads(), [&](int i) { smooth_again(block_at(i), down); });
+  for (int i = 0; i < count; ++i) current_[static_cast<std::size_t>(block_at(i))] ^= 1u;
+}
+
+template <int Dim>
 void Multigrid<Dim>::smooth_level(int level, bool down) {
-  const int begin = forest_.level_begin(level), count = forest_.level_begin(level + 1) - begin;
-  mesh::parallel_for(count, forest_.threads(), [&](int i) { smooth_again(begin + i, down); });
-  for (int b = begin; b < begin + count; ++b) current_[static_cast<std::size_t>(b)] ^= 1u;
+  const int begin = forest_.level_begin(level);
+  smooth_round(forest_.level_begin(level + 1) - begin, [&](int i) { return begin + i; }, down);
 }
 
 template <int Dim>
 void Multigrid<Dim>::smooth_at_gaps(int level, bool down) {
   const auto& blocks = at_gaps_[static_cast<std::size_t>(level)];
-  for (int round = 0; round < rounds_at_gaps; ++round) {
-    mesh::parallel_for(static_cast<int>(blocks.size()), forest_.threads(),
-                       [&](int i) { smooth_again(blocks[static_cast<std::size_t>(i)], down); });
-    for (const int b : blocks) current_[static_cast<std::size_t>(b)] ^= 1u;
-  }
+  for (int round = 0; round < rounds_at_gaps; ++round)
+    smooth_round(static_cast<int>(blocks.size()), [&](int i) { return blocks[static_cast<std::size_t>(i)]; }, down);
 }
 
 template <int Dim>

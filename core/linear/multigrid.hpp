@@ -32,6 +32,9 @@ class Multigrid {
   void flux_to_coarse(int level);
   void correct(int b);
   void smooth_again(int b, bool down);
+  /// One round in `count` blocks, all from the values before it.
+  template <class BlockAt>
+  void smooth_round(int count, const BlockAt& block_at, bool down);
   void smooth_level(int level, bool down);
   void smooth_at_gaps(int level, bool down);
   void solve_root();

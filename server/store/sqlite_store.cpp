@@ -91,21 +91,15 @@ class SqliteStore final : public JobStore {
 
   Created create_limited(const NewJob& job, int limit) override {
     Created out;
-    change([&](Database& db, std::set<std::string>& touched) {
-      out = rows::create(db, job, limit, now_ns_());
-      if (!out.existed) touched.insert(job.uid);
-    });
+    change(creation(job, limit, out));
     return out;
   }
 
   void create_later(std::shared_ptr<const NewJob> job, int limit, CreateDone done) override {
     const auto created = std::make_shared<Created>();
-    writer_.call_later(
-        [this, job = std::move(job), created, limit](Database& db, std::set<std::string>& touched) {
-          *created = rows::create(db, *job, limit, now_ns_());
-          if (!created->existed) touched.insert(job->uid);
-        },
-        [created, done = std::move(done)](const std::exception_ptr& error) { done(std::move(*created), error); });
+    writer_.call_later(creation(*job, limit, *created), [job, created, done = std::move(done)](const std::exception_ptr& error) {
+      done(std::move(*created), error);
+    });
   }
 
   std::optional<Job> find(const std::string& uid) const override {
@@ -301,6 +295,13 @@ class SqliteStore final : public JobStore {
   template <class F>
   void change(F f) {
     writer_.call(std::move(f));
+  }
+  /// The change that makes a job; `job` and `out` must live until it is done.
+  Writer::Change creation(const NewJob& job, int limit, Created& out) {
+    return [this, &job, limit, &out](Database& db, std::set<std::string>& touched) {
+      out = rows::create(db, job, limit, now_ns_());
+      if (!out.existed) touched.insert(job.uid);
+    };
   }
   /// A change of one job; what it returns is the job as it is then, if it changed.
   template <class F>

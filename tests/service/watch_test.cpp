@@ -125,7 +125,8 @@ TEST(Watch, ClientsThatDoNotReadDisturbNobody) {
 /// Streams that stay open, each on the connection that it is given.
 class OpenStreams {
  public:
-  explicit OpenStreams(std::string job) { request_.set_job(std::move(job)); }
+  /// Of a job made for them.
+  explicit OpenStreams(JobClient& client) { request_.set_job(client.create(create_request(1, small_case())).job().name()); }
   ~OpenStreams() {
     while (!readers_.empty()) end_one();
   }
@@ -159,6 +160,12 @@ std::shared_ptr<grpc::Channel> connection(const TestService& service) {
   return grpc::CreateCustomChannel(service.server->address(), grpc::InsecureChannelCredentials(), own);
 }
 
+rpc::ServerSettings two_streams_per_caller() {
+  rpc::ServerSettings settings;
+  settings.max_streams_per_caller = 2;
+  return settings;
+}
+
 void expect_refused(const grpc::Status& status, const std::string& text) {
   EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_THAT(status.error_message(), ::testing::HasSubstr(text));
@@ -170,18 +177,16 @@ TEST(Watch, StreamsAreLimitedInAll) {
   settings.max_streams = 3;
   TestService service(paused(0), settings);
   JobClient client(service.server->address());
-  OpenStreams streams(client.create(create_request(1, small_case())).job().name());
+  OpenStreams streams(client);
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(streams.open(connection(service)).ok());
   expect_refused(streams.open(connection(service)), "limits.streams)");
   EXPECT_EQ(client.list({}).jobs_size(), 1) << "other calls go on";
 }
 
 TEST(Watch, StreamsOfOneConnectionAreLimitedAndTheirPlacesComeBack) {
-  rpc::ServerSettings settings;
-  settings.max_streams_per_caller = 2;
-  TestService service(paused(0), settings);
+  TestService service(paused(0), two_streams_per_caller());
   JobClient client(service.server->address());
-  OpenStreams streams(client.create(create_request(1, small_case())).job().name());
+  OpenStreams streams(client);
   const auto first = connection(service), second = connection(service);
   for (int i = 0; i < 2; ++i) EXPECT_TRUE(streams.open(first).ok());
   expect_refused(streams.open(first), "limits.streams_per_caller); end some");
@@ -196,12 +201,11 @@ TEST(Watch, StreamsOfOneConnectionAreLimitedAndTheirPlacesComeBack) {
 }
 
 TEST(Watch, StreamsOfOnePrincipalAreLimitedOverAllItsConnections) {
-  rpc::ServerSettings settings;
-  settings.max_streams_per_caller = 2;
+  rpc::ServerSettings settings = two_streams_per_caller();
   settings.access.principals = {{"ada", rpc::Role::admin, jobs::sha256_hex("a"), ""}, {"bob", rpc::Role::viewer, jobs::sha256_hex("b"), ""}};
   TestService service(paused(0), settings);
   JobClient client(connection(service), "a");
-  OpenStreams streams(client.create(create_request(1, small_case())).job().name());
+  OpenStreams streams(client);
   for (int i = 0; i < 2; ++i) EXPECT_TRUE(streams.open(connection(service), "a").ok());
   expect_refused(streams.open(connection(service), "a"), "ada holds 2 open streams");
   EXPECT_TRUE(streams.open(connection(service), "b").ok());
