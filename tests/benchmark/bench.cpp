@@ -13,6 +13,7 @@ namespace {
 
 sim::Case bench_case(std::int64_t cells) {
   sim::Case c = validation::example_case();
+  c.turbulence = {};
   c.body.release = sim::Body::Release::at_start;
   c.body.angles = {5 * degree, 0, 0};
   c.stages.resize(1);

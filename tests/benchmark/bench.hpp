@@ -21,6 +21,8 @@ struct Measurement {
   double bytes_per_cell = 0;             ///< all of the run, see below; 0: not measured
   double pcg_iterations = 0;             ///< mean of the steps; 0: none
   std::map<std::string, double> phases;  ///< share of the CPU time
+  double stage_steps = 0;                ///< of the whole stage, as its case asks for them; 0: no stage of a case
+  double stage_cpu_h = 0;                ///< CPU hours of so many steps, each as dear as the measured ones
 };
 
 /// Whole time steps on a mesh of about `cells` cells, after some that let the hull get going. Bytes: live heap.
@@ -29,6 +31,11 @@ Measurement measure_step(std::int64_t cells, int steps, int threads, bool turbul
 /// The same in three dimensions: DTMB 5415, two flooded compartments. Bytes: highest resident memory of the process
 /// during start and steps less what it had before the mesh, the hull's table included there.
 Measurement measure_ship_step(const std::shared_ptr<const sim::Model<3>>& model, int steps, int threads);
+
+/// One stage of a ship's case as measure_ship_step: on the stage's mesh from the start, hull free from the first step
+/// on. What the whole stage costs is extrapolated from the mean of the measured steps; its number of steps is that of
+/// the case's estimate (durations; where a rule ends a stage, the periods it usually takes). Mapping is not in it.
+Measurement measure_stage(const sim::Case& c, std::size_t stage, int steps, int threads);
 
 /// The ship's case on about `cells` cells.
 std::shared_ptr<const sim::Model<3>> ship_bench_model(std::int64_t cells, bool turbulent = false);

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <vector>
 
 #include "core/mesh/parallel_runtime.hpp"
 #include "tests/benchmark/bench.hpp"
+#include "tests/validation/support/tank_run.hpp"
 
 namespace {
 
@@ -23,6 +25,10 @@ void print_json(const Measurement& m) {
   line["bytes_per_cell"] = m.bytes_per_cell > 0 ? nlohmann::json(m.bytes_per_cell) : nullptr;
   line["pcg_iterations"] = m.pcg_iterations > 0 ? nlohmann::json(m.pcg_iterations) : nullptr;
   line["phases"] = m.phases;
+  if (m.stage_steps > 0) {
+    line["stage_steps"] = m.stage_steps;
+    line["stage_cpu_h"] = m.stage_cpu_h;
+  }
   std::printf("%s\n", line.dump().c_str());
   std::fflush(stdout);
 }
@@ -34,6 +40,7 @@ void print_row(const Measurement& m) {
   if (m.cell_steps_per_wall_s > 0) std::printf(", %.3f /wall s", 1e-6 * m.cell_steps_per_wall_s);
   if (m.bytes_per_cell > 0) std::printf("  %5.0f B/cell", m.bytes_per_cell);
   if (m.pcg_iterations > 0) std::printf("  %4.1f iterations", m.pcg_iterations);
+  if (m.stage_steps > 0) std::printf("  %.0f steps: %.2f CPU h", m.stage_steps, m.stage_cpu_h);
   std::printf("\n");
   for (const auto& [phase, share] : m.phases)
     std::printf("    %-12s %5.1f %%\n", phase.c_str(), 100 * share);
@@ -45,6 +52,7 @@ struct Options {
   std::vector<std::int64_t> cells;
   std::vector<int> threads{1};
   int steps = 0;
+  std::string stages;
 };
 
 void measure_section(const Options& o, std::int64_t cells, int steps) {
@@ -69,6 +77,14 @@ void measure_ship(const Options& o, std::int64_t cells, int steps) {
   }
 }
 
+void measure_stages(const Options& o) {
+  const seaway::sim::Case c = seaway::validation::example_case(o.stages);
+  if (c.dim != 3) throw std::invalid_argument("--stages needs a case in three dimensions; " + o.stages + " has two");
+  for (std::size_t stage = 0; stage < c.stages.size(); ++stage)
+    for (const int threads : o.threads)
+      (o.json ? print_json : print_row)(seaway::bench::measure_stage(c, stage, o.steps > 0 ? o.steps : 50, threads));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -79,6 +95,9 @@ int main(int argc, char** argv) {
   app.add_flag("--ship", o.ship, "three dimensions: the damaged DTMB 5415 instead of its section");
   app.add_flag("--kernels", o.kernels, "section: advection and multigrid cycle by themselves as well");
   app.add_flag("--turbulence", o.turbulence, "the step with k-epsilon and wall functions as well");
+  app.add_option("--stages", o.stages,
+                 "instead: each stage of this case of client/examples (three dimensions), 50 steps, and the CPU hours of "
+                 "the whole stage extrapolated from them");
   app.add_option("--cells", o.cells, "wanted numbers of cells; met to a few per cent [50000 300000; ship: 1000000]")
       ->check(CLI::Range(10000, 20000000));
   app.add_option("--threads", o.threads, "numbers of threads, each measured [1]")->check(CLI::Range(1, 256));
@@ -88,6 +107,10 @@ int main(int argc, char** argv) {
   if (o.cells.empty()) o.cells = o.ship ? std::vector<std::int64_t>{1000000} : std::vector<std::int64_t>{50000, 300000};
   try {
     const seaway::mesh::ParallelRuntime runtime;
+    if (!o.stages.empty()) {
+      measure_stages(o);
+      return 0;
+    }
     for (const std::int64_t n : o.cells) {
       const std::int64_t wanted = std::max<std::int64_t>(20, (o.ship ? 20000000 : 6000000) / n);
       (o.ship ? measure_ship : measure_section)(o, n, o.steps > 0 ? o.steps : static_cast<int>(wanted));

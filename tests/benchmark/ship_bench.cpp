@@ -4,6 +4,7 @@
 #include <fstream>
 #include <string>
 
+#include "core/sim/check_case.hpp"
 #include "tests/benchmark/bench.hpp"
 #include "tests/validation/support/ship_run.hpp"
 #include "tests/validation/support/tank_run.hpp"
@@ -59,6 +60,17 @@ Measurement measure_ship_step(const std::shared_ptr<const sim::Model<3>>& model,
   const double total = run->clock().total();
   for (const auto& [phase, seconds] : run->clock().times())
     if (seconds > 0) m.phases[phase] = seconds / total;
+  return m;
+}
+
+Measurement measure_stage(const sim::Case& c, std::size_t stage, int steps, int threads) {
+  sim::Case alone = c;
+  alone.stages = {c.stages.at(stage)};
+  alone.body.release = sim::Body::Release::at_start;
+  Measurement m = measure_ship_step(validation::ship_model(alone), steps, threads);
+  m.name = "stage_" + c.stages[stage].name;
+  m.stage_steps = static_cast<double>(sim::check_case(c).stages.at(stage).steps);
+  m.stage_cpu_h = m.stage_steps * static_cast<double>(m.cells) / m.cell_steps_per_cpu_s / 3600;
   return m;
 }
 

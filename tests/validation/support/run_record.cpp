@@ -4,12 +4,14 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/constants.hpp"
 #include "core/base/error.hpp"
 #include "core/base/version.hpp"
 #include "core/sim/cascade.hpp"
+#include "core/sim/cycle_monitor.hpp"
 
 namespace seaway::validation {
 namespace {
@@ -94,6 +96,18 @@ double RunRecord::cpu_until(double time) const {
 
 double RunRecord::amplitude(const std::vector<double>& signal, double end, double period) const {
   return std::abs(harmonic(between(signal, end - 3 * period, end), 2 * pi / period, 0));
+}
+
+double RunRecord::converged_at(double start, const sim::EndRule& rule, double period) const {
+  sim::CycleMonitor monitor(start, period, 2);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    if (t[i] < start - 1e-9) continue;
+    monitor.add(t[i], {roll[i], heave[i]});
+    if (static_cast<double>(monitor.count()) >= std::max(rule.min_periods, 2.0) &&
+        monitor.motion_change({0, 1}, 2) < rule.tolerance)
+      return t[i];
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 double RunRecord::mapping_cpu_s() const {

@@ -33,6 +33,9 @@ struct RunRecord {
   Record between(const std::vector<double>& signal, double from, double to) const;
   /// First harmonic of the wave's period [s] in a signal over the last three periods until `end`.
   double amplitude(const std::vector<double>& signal, double end, double period) const;
+  /// When the rule of a stage that began at `start` first held for roll and heave, over periods of `period` [s];
+  /// its largest number of periods does not count. Infinite if it never did.
+  double converged_at(double start, const sim::EndRule& rule, double period) const;
 };
 
 /// Runs the case in `folder` until it ends or `enough(time, stage)` says so. If a run of the same `digest` was cut
