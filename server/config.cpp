@@ -83,6 +83,7 @@ Settings load_settings(const Flags& flags) {
   read_worker(m.workers(), flags, check, s);
   if (m.workers().has_count()) s.pool.workers = check.count("workers.count", m.workers().count(), 1, 64);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  s.worker.jobs = s.pool.workers;
   s.worker.run.threads = std::max(1, cores / std::max(1, s.pool.workers));
   if (m.workers().has_threads()) s.worker.run.threads = check.count("workers.threads", m.workers().threads(), 1, 256);
   if (m.workers().has_checkpoint_interval_s())

@@ -21,6 +21,7 @@
 #include "server/maintenance.hpp"
 #include "server/metrics/metrics.hpp"
 #include "server/readiness.hpp"
+#include "server/standby_thread.hpp"
 
 namespace seaway::server {
 namespace {
@@ -44,17 +45,15 @@ int wait_for_signal() {
 }
 
 /// Ends the process if winding up takes too long: what runs is in the store, and the next start recovers it.
-std::jthread watch_the_clock(const std::shared_ptr<spdlog::logger>& log) {
-  return std::jthread([log](std::stop_token stop) {
-    std::mutex mutex;
-    std::condition_variable_any wake;
-    std::unique_lock lock(mutex);
-    wake.wait_for(lock, stop, std::chrono::seconds(longest_drain_s), [] { return false; });
-    if (stop.stop_requested()) return;
-    log->warn("event=drain_too_long text=\"ending; the running jobs go on from their last checkpoint\"");
-    log->flush();
-    ::_exit(0);
-  });
+void watch_the_clock(const std::stop_token& stop, spdlog::logger& log) {
+  std::mutex mutex;
+  std::condition_variable_any wake;
+  std::unique_lock lock(mutex);
+  wake.wait_for(lock, stop, std::chrono::seconds(longest_drain_s), [] { return false; });
+  if (stop.stop_requested()) return;
+  log.warn("event=drain_too_long text=\"ending; the running jobs go on from their last checkpoint\"");
+  log.flush();
+  ::_exit(0);
 }
 
 rpc::ServerFacts facts_of(const Settings& settings, const std::shared_ptr<spdlog::logger>& log) {
@@ -158,6 +157,8 @@ void serve(Settings settings, const std::string& address_file, const jobs::Solve
                      [&] { return metrics.text(levels_now(settings, *store, server)); });
     log->info("event=metrics address={}", listener->address());
   }
+  StandbyThread clock([log](const std::stop_token& stop) { watch_the_clock(stop, *log); });
+  StandbyThread draining([&pool](const std::stop_token&) { pool.drain(); });
   pool.start();  // not before it listens: a server that cannot start takes no job
   if (!address_file.empty()) write_address(address_file, server.address());
   log->info("event=listening address={} data_dir={} executor={} workers={} threads={} version={}", server.address(),
@@ -167,9 +168,9 @@ void serve(Settings settings, const std::string& address_file, const jobs::Solve
   const int signal = wait_for_signal();
   notify_manager("STOPPING=1");
   log->info("event=stopping signal={}", signal);
-  const std::jthread clock = watch_the_clock(log);
+  clock.go();
   listener.reset();
-  std::jthread draining([&pool] { pool.drain(); });
+  draining.go();
   server.shutdown();
   draining.join();
   store->flush();

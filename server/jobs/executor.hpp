@@ -43,6 +43,7 @@ struct AttemptLimits {
 struct ProcessSettings {
   RunSettings run;
   AttemptLimits limits;
+  int jobs = 1;                                     ///< at the same time; the CPUs of the server are divided among them
   std::string program;                              ///< seaway-run
   std::chrono::milliseconds lease{30'000};          ///< a worker without a sign of life for so long is dead
   std::chrono::milliseconds stall{600'000};         ///< a solver without a result for so long hangs

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/base/error.hpp"
+#include "server/jobs/core_slots.hpp"
 #include "server/jobs/supervision.hpp"
 
 namespace seaway::jobs {
@@ -14,7 +15,8 @@ class ProcessExecutor final : public Executor {
  public:
   ProcessExecutor(ProcessSettings settings, const Workspace& workspace, store::JobStore& store,
                   std::shared_ptr<spdlog::logger> log)
-      : settings_(std::move(settings)), workspace_(workspace), store_(store), log_(std::move(log)) {
+      : settings_(std::move(settings)), workspace_(workspace), store_(store), log_(std::move(log)),
+        slots_(available_cpus(), settings_.jobs, settings_.run.threads) {
     if (::access(settings_.program.c_str(), X_OK) != 0)
       fail(ErrorCode::invalid_argument, "workers.program {}: {}; name the seaway-run of this version, or choose "
            "executor: thread", settings_.program, std::strerror(errno));
@@ -26,8 +28,9 @@ class ProcessExecutor final : public Executor {
 
   RunResult run(const store::Job& job, const AttemptControl& control) override {
     RunResult out;
+    const CoreSlots::Slot slot = slots_.take();
     try {
-      out = Supervision(settings_, workspace_, store_, log_, job).run(control);
+      out = Supervision(settings_, workspace_, store_, log_, job, slot.cpus()).run(control);
     } catch (const NotStarted& error) {
       out = {RunResult::End::fault, store::Reason::executor_lost, error.what(), true};
     } catch (const std::exception& error) {
@@ -43,6 +46,7 @@ class ProcessExecutor final : public Executor {
   const Workspace& workspace_;
   store::JobStore& store_;
   const std::shared_ptr<spdlog::logger> log_;
+  CoreSlots slots_;
 };
 
 }  // namespace

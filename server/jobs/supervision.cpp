@@ -14,6 +14,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/version.hpp"
+#include "server/jobs/core_slots.hpp"
 #include "server/jobs/worker.hpp"
 
 namespace seaway::jobs {
@@ -51,8 +52,8 @@ double seconds(std::chrono::steady_clock::duration d) { return std::chrono::dura
 }  // namespace
 
 Supervision::Supervision(const ProcessSettings& settings, const Workspace& workspace, store::JobStore& store,
-                         std::shared_ptr<spdlog::logger> log, const store::Job& job)
-    : settings_(settings), workspace_(workspace), store_(store), log_(std::move(log)), job_(job),
+                         std::shared_ptr<spdlog::logger> log, const store::Job& job, const std::vector<int>& cpus)
+    : settings_(settings), workspace_(workspace), store_(store), log_(std::move(log)), job_(job), cpus_(cpus),
       observer_(job.uid, job.last_sequence, workspace.run_folder(job.uid), store, log_, settings.run.metrics) {}
 
 std::string Supervision::order() const {
@@ -79,7 +80,7 @@ RunResult Supervision::run(const AttemptControl& control) {
   const Wake wake;
   const std::stop_callback on_stop(control.stop, [&] { wake(); });
   const std::stop_callback on_kill(control.kill, [&] { wake(); });
-  child_.emplace(settings_.program, order(), lease);
+  start_child(lease);
   begun_ = alive_ = news_ = accounted_ = disk_checked_ = Clock::now();
   while (!records_ended_ || !child_->status()) {
     wait_for_news(wake.fd());
@@ -96,6 +97,12 @@ RunResult Supervision::run(const AttemptControl& control) {
   observer_.finish();
   account(Clock::now());
   return result();
+}
+
+void Supervision::start_child(const Descriptor& lease) {
+  const KeepToCpus keep(cpus_);  // the child inherits them, with all threads that it makes
+  if (!keep.is_kept()) log_->warn("job={} event=cores text=\"the system does not give it CPUs of its own: {}\"", job_.uid, std::strerror(errno));
+  child_.emplace(settings_.program, order(), lease);
 }
 
 void Supervision::wait_for_news(int wake) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "seaway/worker/attempt.pb.h"
 #include "server/jobs/child_process.hpp"
@@ -18,7 +19,7 @@ namespace seaway::jobs {
 class Supervision {
  public:
   Supervision(const ProcessSettings& settings, const Workspace& workspace, store::JobStore& store,
-              std::shared_ptr<spdlog::logger> log, const store::Job& job);
+              std::shared_ptr<spdlog::logger> log, const store::Job& job, const std::vector<int>& cpus);
   /// Throws Error for what lies outside the child: no lease, no process.
   RunResult run(const AttemptControl& control);
 
@@ -27,6 +28,7 @@ class Supervision {
   /// Why the child was asked to end, or killed.
   enum class Verdict { none, stop, kill, wall, disk, memory, lease, stall, damaged };
 
+  void start_child(const Descriptor& lease);
   std::string order() const;
   void wait_for_news(int wake);
   void read_records();
@@ -44,6 +46,7 @@ class Supervision {
   store::JobStore& store_;
   const std::shared_ptr<spdlog::logger> log_;
   const store::Job& job_;
+  const std::vector<int>& cpus_;
   StoreObserver observer_;
   std::optional<ChildProcess> child_;
   FrameReader frames_;

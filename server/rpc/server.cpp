@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "server/rpc/call_threads.hpp"
 #include "server/rpc/malformed.hpp"
 #include "server/rpc/services.hpp"
 
@@ -97,6 +98,7 @@ Server::Server(const ServerSettings& settings, jobs::Queue& queue, store::JobSto
   grpc::ResourceQuota quota("seaway");
   quota.Resize(std::size_t{512} << 20);
   builder.SetResourceQuota(quota);
+  start_call_threads(std::chrono::seconds(10));
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
   interceptors.push_back(make_malformed_answer());
   builder.experimental().SetInterceptorCreators(std::move(interceptors));

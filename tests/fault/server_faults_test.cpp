@@ -2,6 +2,7 @@
 // Faults of the programs' surroundings, by their numbers in tests/fault/README.md: names that are paths, signals, no
 // descriptors left, a disk that loses data. The server runs as a program, with the stand-in solver in processes of its own.
 #include <gmock/gmock.h>
+#include <grpcpp/create_channel.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <thread>
 
 #include "client/job_client.hpp"
@@ -357,6 +359,22 @@ TEST_F(F21, WithoutDescriptorsCallsFailOrWaitAndTheServerLives) {
   EXPECT_EQ(other.list({}).jobs_size(), 2);
 }
 
+/// Lists, gets and watches at once over one connection, so that threads of the server meet on it. Throws what a call throws.
+void call_in_parallel(const std::string& address, const std::string& job, int callers, int rounds) {
+  const auto channel = grpc::CreateChannel(address, grpc::InsecureChannelCredentials());
+  std::vector<std::future<void>> all;
+  for (int i = 0; i < callers; ++i)
+    all.push_back(std::async(std::launch::async, [&] {
+      JobClient client(channel);
+      for (int n = 0; n < rounds; ++n) {
+        EXPECT_GE(client.list({}).jobs_size(), 1);
+        EXPECT_EQ(client.get(job).name(), job);
+        client.watch(job, 590, [](const auto&) { return true; });
+      }
+    }));
+  for (auto& one : all) one.get();
+}
+
 TEST_F(F21, WithoutThreadsCallsAreAnsweredAndTheServerLives) {
   SharedDiskControl system(folder_ / "control");
   start(under_control());
@@ -369,6 +387,7 @@ TEST_F(F21, WithoutThreadsCallsAreAnsweredAndTheServerLives) {
     EXPECT_GE(other.list({}).jobs_size(), 2);
     other.watch(first, 590, [](const auto&) { return true; });
   }
+  call_in_parallel(daemon_->address(), first, 16, 10);
   const auto deadline = std::chrono::steady_clock::now() + seconds(30);
   while (system->threads_refused == 0 && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_GT(system->threads_refused, 0);
@@ -377,6 +396,21 @@ TEST_F(F21, WithoutThreadsCallsAreAnsweredAndTheServerLives) {
   EXPECT_TRUE(reaches(starved, v1::Job::STATE_SUCCEEDED)) << client_->get(starved).state_message() << "\n" << read_text(folder_ / "log.txt");
   EXPECT_EQ(client_->get(starved).fault_count(), 0);
   EXPECT_EQ(daemon_->terminate(), 0);
+}
+
+TEST_F(F21, WithoutThreadsASignalEndsTheServerInTime) {
+  SharedDiskControl system(folder_ / "control");
+  start(under_control());
+  system->threads_fail = 1;
+  const std::string starved = submit();
+  const auto told = std::chrono::steady_clock::now();
+  EXPECT_EQ(daemon_->terminate(), 0) << read_text(folder_ / "log.txt");
+  EXPECT_LT(std::chrono::steady_clock::now() - told, seconds(10));
+  EXPECT_THAT(read_text(folder_ / "log.txt"), HasSubstr("event=stopped")) << "the end of its patience was needed";
+  system->threads_fail = 0;
+  daemon_->start();
+  client_ = std::make_unique<JobClient>(daemon_->address());
+  EXPECT_TRUE(reaches(starved, v1::Job::STATE_SUCCEEDED));
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <stdexcept>
 #include <thread>
 
 #include "tests/fault/stress.hpp"
@@ -155,7 +157,19 @@ std::vector<Line> slow_clients(const Settings& s) {
   return {{"slow_clients", "rss_mb_per_100", stalled, "MB", 5, cpu}};
 }
 
-/// An hour at 50 Hz: only for a solver that makes 180000 samples in no time.
+/// Waits for the end of a run of so many samples; only a solver that makes them in no time has them within `seconds`.
+void wait_for_samples(client::JobClient& client, const std::string& job, std::int64_t samples, double seconds) {
+  const auto deadline = Clock::now() + std::chrono::duration<double>(seconds);
+  v1::Job now = client.get(job);
+  for (; now.state() < v1::Job::STATE_SUCCEEDED && Clock::now() < deadline; now = client.get(job))
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  if (now.state() < v1::Job::STATE_SUCCEEDED)
+    throw std::runtime_error("catch_up: " + std::to_string(now.latest_sequence()) + " of " + std::to_string(samples) + " samples after " +
+                             std::to_string(std::llround(seconds)) + " s; give the stand-in (--seawayd, --seaway-run) or more --seconds");
+  if (now.latest_sequence() != samples) throw std::runtime_error("catch_up: the run has another number of samples");
+}
+
+/// An hour at 50 Hz.
 std::vector<Line> catch_up(const Settings& s) {
   const testing::TempFolder folder;
   testing::Daemon daemon(s.seawayd, folder.path(), {}, daemon_arguments(s, folder.path()));
@@ -166,8 +180,7 @@ std::vector<Line> catch_up(const Settings& s) {
   const double dt = request.case_().time().dt_s();
   for (auto& stage : stages) stage.mutable_end()->mutable_time()->set_duration_s(180'000 * dt / stages.size());
   const std::string job = client.create(request).job().name();
-  while (client.get(job).state() < v1::Job::STATE_SUCCEEDED) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  if (client.get(job).latest_sequence() != 180'000) throw std::runtime_error("catch_up: the run has another number of samples");
+  wait_for_samples(client, job, 180'000, s.seconds);
   std::int64_t last = 0;
   const auto began = Clock::now();
   client.watch(job, 0, [&](const v1::WatchSamplesResponse& m) {

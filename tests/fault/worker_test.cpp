@@ -3,10 +3,13 @@
 // but end its own job, after retries from the last checkpoint.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include "client/job_client.hpp"
@@ -100,6 +103,43 @@ TEST_F(WorkerProcess, RunsAJobToTheSameBytesAsTheForegroundRun) {
   EXPECT_EQ(client_->stages(job.name()).stages_size(), 3);
   EXPECT_EQ(client_->artifacts(job.name()).artifacts_size(), 3);
   EXPECT_FALSE(fs::exists(lease_of(job.name())));
+}
+
+/// CPUs that the threads of a process may run on, all of them together.
+std::set<int> cpus_of(pid_t pid) {
+  std::set<int> out;
+  for (const auto& task : fs::directory_iterator("/proc/" + std::to_string(pid) + "/task")) {
+    cpu_set_t set;
+    if (::sched_getaffinity(std::stoi(task.path().filename()), sizeof set, &set) != 0) continue;  // it has just ended
+    for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu)
+      if (CPU_ISSET(cpu, &set)) out.insert(cpu);
+  }
+  return out;
+}
+
+TEST_F(WorkerProcess, JobsKeepToTheirOwnCores) {
+  const std::set<int> all = cpus_of(::getpid());
+  if (all.size() < 2) GTEST_SKIP() << "there is one core";
+  start("  count: 2\n  threads: 1\n", 3000);
+  const std::string a = submit("one"), b = submit("another");
+  for (const std::string& name : {a, b}) wait_for_samples(name, 20);
+  const std::set<int> of_a = cpus_of(worker_of(a)), of_b = cpus_of(worker_of(b));
+  EXPECT_EQ(of_a.size(), 1u);
+  EXPECT_EQ(of_b.size(), 1u);
+  EXPECT_NE(of_a, of_b);
+  EXPECT_EQ(cpus_of(daemon_->process().pid()), all) << "the server keeps its own";
+  const std::string expected = unbroken();
+  for (const std::string& name : {a, b}) {
+    EXPECT_EQ(ended(name).state(), v1::Job::STATE_SUCCEEDED);
+    EXPECT_EQ(csv(name), expected);
+  }
+}
+
+TEST_F(WorkerProcess, AJobThatMayUseAllCoresIsNotHeld) {
+  start("  count: 1\n", 3000);
+  const std::string job = submit("one");
+  wait_for_samples(job, 20);
+  EXPECT_EQ(cpus_of(worker_of(job)), cpus_of(::getpid()));
 }
 
 TEST_F(WorkerProcess, CrashesAreRetriedFromTheLastCheckpoint) {

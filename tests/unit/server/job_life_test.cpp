@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 class JobLife : public ::testing::Test {
  protected:
@@ -76,6 +77,8 @@ TEST_F(JobLife, ACaseIsStoredOnceAndGoesWithTheLastOfItsJobs) {
   EXPECT_TRUE(verify_database(folder_ / "jobs.db").problems.empty());
   Database(folder_ / "jobs.db", Database::Role::writer).execute("UPDATE case_uses SET jobs = 7");
   EXPECT_THAT(verify_database(folder_ / "jobs.db").problems, ElementsAre(HasSubstr("case_uses: the case of job c is counted 7 times")));
+  Database(folder_ / "jobs.db", Database::Role::writer).execute("UPDATE case_uses SET jobs = 1; DELETE FROM case_specs");
+  EXPECT_THAT(verify_database(folder_ / "jobs.db").problems, ElementsAre(HasSubstr("case_specs: the case of job c is missing")));
 }
 
 TEST_F(JobLife, NoJobStarvesHoweverManyImportantOnesCome) {
@@ -282,13 +285,22 @@ TEST(Migrations, EveryOlderFileBecomesLikeANewOneAndIsCopiedFirst) {
       Database db(old.path, Database::Role::writer);
       migrate_to(db, version);
       db.execute("INSERT INTO jobs (uid, request_id, title, state, digest, code_version, spec, created_ns, updated_ns) "
-                 "VALUES ('old', 'r', 't', 1, 'd', '0', x'00', 1, 1)");
+                 "VALUES ('old', 'r', 't', 1, 'd', '0', x'00', 1, 1), ('same case', 's', 't', 1, 'd', '0', x'00', 2, 2), "
+                 "('other case', 'o', 't', 1, 'e', '0', x'0102', 3, 3)");
     }
     {
       const auto store = open_sqlite_store(old);
       const auto taken = store->take_next();
       EXPECT_EQ(taken->uid, "old");
       EXPECT_EQ(taken->spec, std::string(1, '\0'));
+      EXPECT_EQ(store->find("same case")->spec, std::string(1, '\0'));
+      EXPECT_EQ(store->find("other case")->spec, "\1\2");
+      EXPECT_THAT(verify_database(old.path).problems, IsEmpty()) << "from schema " << version;
+      for (const char* uid : {"same case", "other case"}) {
+        store->move(uid, State::queued, State::cancelled, Reason::user, "");
+        EXPECT_TRUE(store->erase(uid));
+      }
+      EXPECT_EQ(store->find("old")->spec, std::string(1, '\0')) << "the case went with one of its jobs";
     }
     EXPECT_EQ(schema_of(old.path), schema_of(fresh.path));
     Database copy(old.path + ".schema" + std::to_string(version), Database::Role::reader);
