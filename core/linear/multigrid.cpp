@@ -1,6 +1,7 @@
 #include "core/linear/multigrid.hpp"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace seaway::linear {
@@ -21,6 +22,13 @@ constexpr int smoothing_rounds = 3;
 
 /// Rounds more in blocks with gaps and beside them: what no coarse cell corrects is left to the smoothing.
 constexpr int rounds_at_gaps = 4;
+
+/// Rounds more in blocks where water meets air, but on the finest level: coarse cells hold both, and what such a cell
+/// brings to the air above the surface is poor.
+constexpr int rounds_at_jumps = 2;
+
+/// Coefficients of a block further apart than this are those of water and air.
+constexpr float density_jump = 30;
 
 template <int Dim>
 IVec<Dim> root_cells(const mesh::TankGrid<Dim>& grid) {
@@ -75,7 +83,7 @@ template <int Dim>
 Multigrid<Dim>::Multigrid(const PoissonOperator<Dim>& op)
     : op_(op), forest_(op.forest()), b_(forest_), z_{CellField<float, Dim>(forest_), CellField<float, Dim>(forest_)},
       current_(static_cast<std::size_t>(forest_.n_blocks()), 0),
-      at_gaps_(static_cast<std::size_t>(forest_.n_levels())),
+      at_gaps_(static_cast<std::size_t>(forest_.n_levels())), at_jumps_(at_gaps_.size()),
       coarse_leaves_(static_cast<std::size_t>(forest_.n_levels())),
       first_coarse_face_(static_cast<std::size_t>(forest_.n_blocks()), -1),
       root_(root_cells(forest_.grid()), forest_.grid().periodic) {
@@ -108,6 +116,32 @@ void Multigrid<Dim>::update() {
   }
   root_.finish();
   find_blocks_at_gaps();
+  find_blocks_at_jumps();
+}
+
+template <int Dim>
+bool Multigrid<Dim>::has_jump(int b) const {
+  float low = std::numeric_limits<float>::max(), high = 0;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const float* c = op_.coefficients().block(axis, b);
+    const auto h2 = static_cast<float>(forest_.block(b).h[axis] * forest_.block(b).h[axis]);
+    for (int i = 0; i < BlockShape<Dim>::faces; ++i) {
+      if (!(c[i] > 0)) continue;
+      low = std::min(low, c[i] * h2);
+      high = std::max(high, c[i] * h2);
+    }
+  }
+  return high > density_jump * low;
+}
+
+template <int Dim>
+void Multigrid<Dim>::find_blocks_at_jumps() {
+  for (int level = 1; level < forest_.n_levels() - 1; ++level) {
+    auto& blocks = at_jumps_[static_cast<std::size_t>(level)];
+    blocks.clear();
+    for (int b = forest_.level_begin(level); b < forest_.level_begin(level + 1); ++b)
+      if (has_jump(b)) blocks.push_back(b);
+  }
 }
 
 template <int Dim>
@@ -258,9 +292,8 @@ void Multigrid<Dim>::smooth_level(int level, bool down) {
 }
 
 template <int Dim>
-void Multigrid<Dim>::smooth_at_gaps(int level, bool down) {
-  const auto& blocks = at_gaps_[static_cast<std::size_t>(level)];
-  for (int round = 0; round < rounds_at_gaps; ++round)
+void Multigrid<Dim>::smooth_blocks(const std::vector<int>& blocks, int rounds, bool down) {
+  for (int round = 0; round < rounds; ++round)
     smooth_round(static_cast<int>(blocks.size()), [&](int i) { return blocks[static_cast<std::size_t>(i)]; }, down);
 }
 
@@ -309,7 +342,8 @@ void Multigrid<Dim>::apply(const CellField<double, Dim>& r) {
     const int begin = forest_.level_begin(level), count = forest_.level_begin(level + 1) - begin;
     mesh::parallel_for(count, threads, [&](int i) { smooth_from_zero(begin + i); });
     for (int round = 1; round < smoothing_rounds; ++round) smooth_level(level, true);
-    smooth_at_gaps(level, true);
+    smooth_blocks(at_gaps_[static_cast<std::size_t>(level)], rounds_at_gaps, true);
+    smooth_blocks(at_jumps_[static_cast<std::size_t>(level)], rounds_at_jumps, true);
     const int coarse = forest_.level_begin(level - 1), n_coarse = begin - coarse;
     mesh::parallel_for(n_coarse, threads, [&](int i) {
       if (!forest_.block(coarse + i).leaf) restrict_residual(coarse + i);
@@ -320,7 +354,8 @@ void Multigrid<Dim>::apply(const CellField<double, Dim>& r) {
   for (int level = 1; level < forest_.n_levels(); ++level) {
     const int begin = forest_.level_begin(level), count = forest_.level_begin(level + 1) - begin;
     mesh::parallel_for(count, threads, [&](int i) { correct(begin + i); });
-    smooth_at_gaps(level, false);
+    smooth_blocks(at_jumps_[static_cast<std::size_t>(level)], rounds_at_jumps, false);
+    smooth_blocks(at_gaps_[static_cast<std::size_t>(level)], rounds_at_gaps, false);
     for (int round = 0; round < smoothing_rounds; ++round) smooth_level(level, false);
   }
 }

@@ -27,6 +27,8 @@ class Multigrid {
  private:
   float* z(int b) { return z_[current_[static_cast<std::size_t>(b)]].block(b); }
   void find_blocks_at_gaps();
+  void find_blocks_at_jumps();
+  bool has_jump(int b) const;
   void smooth_from_zero(int b);
   void restrict_residual(int parent);
   void flux_to_coarse(int level);
@@ -36,7 +38,7 @@ class Multigrid {
   template <class BlockAt>
   void smooth_round(int count, const BlockAt& block_at, bool down);
   void smooth_level(int level, bool down);
-  void smooth_at_gaps(int level, bool down);
+  void smooth_blocks(const std::vector<int>& blocks, int rounds, bool down);
   void solve_root();
 
   const PoissonOperator<Dim>& op_;
@@ -45,6 +47,7 @@ class Multigrid {
   std::array<CellField<float, Dim>, 2> z_;
   std::vector<unsigned char> current_;  ///< by block: which of z_ holds the values
   std::vector<std::vector<int>> at_gaps_;  ///< by level: blocks with gaps (PoissonOperator::has_gaps) and their neighbours
+  std::vector<std::vector<int>> at_jumps_;  ///< by level but the finest: blocks in which water meets air
   std::vector<std::vector<int>> coarse_leaves_;  ///< by level: leaves with a finer neighbour
   std::vector<int> first_coarse_face_;
   DenseMultigrid<Dim> root_;

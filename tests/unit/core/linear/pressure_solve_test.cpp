@@ -149,7 +149,7 @@ TEST(Multigrid, IterationsDoNotGrowWithResolution) {
   // Random right-hand side over six decades, the density jump crossing every level jump.
   const int coarse = iterations<2>(3), fine = iterations<2>(6);
   EXPECT_LE(coarse, 12);
-  EXPECT_LE(fine, coarse + 3);
+  EXPECT_LE(fine, coarse + 1);  // 2 more without the rounds in blocks where water meets air
   EXPECT_LE(iterations<3>(3), 13);
 }
 TEST(Multigrid, IterationsDoNotGrowWithTheRootGrid) { EXPECT_LE(iterations<2>(3, 8), iterations<2>(3, 2) + 2); }
@@ -206,7 +206,7 @@ TEST(Multigrid, ThinWallsKeepTwoSpacesApart) {
   // Walls of one cell of the level below the finest: all coarser cells lie across them.
   const int open = iterations<2>(4), box = iterations_with_a_box<2>(4, 1.0 / 64);
   EXPECT_LE(box, open + 5);  // 7 more if coarse cells lay across the walls
-  EXPECT_LE(iterations_with_a_box<3>(3, 1.0 / 16), iterations<3>(3) + 3);
+  EXPECT_LE(iterations_with_a_box<3>(3, 1.0 / 16), 13);  // no more than the tank without the box may take
   // The same on one level more: without more smoothing of what no coarse cell stands for it takes 24.
   EXPECT_LE(iterations_with_a_box<2>(5, 1.0 / 16), iterations<2>(5) + 7);
 }
