@@ -59,18 +59,25 @@ void set_deadline(grpc::ClientContext& context, int seconds) {
   context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(seconds));
 }
 
+/// As JobClient::pause(). gRPC notices what became of a connection only while somebody waits for it, or every five seconds.
+void pause(grpc::Channel& channel, std::chrono::milliseconds time) {
+  const auto until = std::chrono::system_clock::now() + time;
+  if (channel.GetState(true) != GRPC_CHANNEL_READY) channel.WaitForConnected(until);
+  else std::this_thread::sleep_until(until);
+}
+
 /// All calls of the service can be repeated, so a connection that breaks (a restart of the server) is tried again.
 template <class Response, class Call>
-Response unary(const std::string& authorization, Call call, int seconds = 10) {
+Response unary(const Link& link, Call call, int seconds = 10) {
   for (int attempt = 1;; ++attempt) {
     grpc::ClientContext context;
-    authorize(context, authorization);
+    authorize(context, link.authorization);
     set_deadline(context, seconds);
     Response response;
     const grpc::Status status = call(&context, &response);
     if (status.ok()) return response;
     if (status.error_code() != grpc::StatusCode::UNAVAILABLE || attempt == 5) throw RpcError(status);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100 * attempt));
+    pause(*link.channel, std::chrono::milliseconds(100 * attempt));
   }
 }
 
@@ -96,7 +103,7 @@ std::shared_ptr<grpc::Channel> open_channel(const std::string& server, const Cre
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2'000);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 400);  // unary() gives up after a second
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2'000);  // also the time that a connection may take
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
@@ -113,111 +120,110 @@ JobClient::JobClient(const std::string& server, const Credentials& credentials)
     : JobClient(open_channel(server, credentials), credentials.token) {}
 
 JobClient::JobClient(std::shared_ptr<grpc::Channel> channel, std::string token)
-    : channel_(std::move(channel)),
-      jobs_(v1::Jobs::NewStub(channel_)),
-      telemetry_(v1::Telemetry::NewStub(channel_)),
-      stages_(v1::Stages::NewStub(channel_)),
-      artifacts_(v1::Artifacts::NewStub(channel_)),
-      reports_(v1::Reports::NewStub(channel_)),
-      sweeps_(v1::Sweeps::NewStub(channel_)),
-      admin_(v1::Admin::NewStub(channel_)),
-      cases_(v1::Cases::NewStub(channel_)),
-      authorization_(token.empty() ? "" : "Bearer " + token) {}
+    : link_{std::move(channel), token.empty() ? "" : "Bearer " + token},
+      jobs_(v1::Jobs::NewStub(link_.channel)),
+      telemetry_(v1::Telemetry::NewStub(link_.channel)),
+      stages_(v1::Stages::NewStub(link_.channel)),
+      artifacts_(v1::Artifacts::NewStub(link_.channel)),
+      reports_(v1::Reports::NewStub(link_.channel)),
+      sweeps_(v1::Sweeps::NewStub(link_.channel)),
+      admin_(v1::Admin::NewStub(link_.channel)),
+      cases_(v1::Cases::NewStub(link_.channel)) {}
 
 v1::CreateJobResponse JobClient::create(const v1::CreateJobRequest& request) {
-  return unary<v1::CreateJobResponse>(authorization_, [&](auto* c, auto* r) { return jobs_->CreateJob(c, request, r); }, 60);
+  return unary<v1::CreateJobResponse>(link_, [&](auto* c, auto* r) { return jobs_->CreateJob(c, request, r); }, 60);
 }
 
 v1::Job JobClient::get(const std::string& name, v1::JobView view) {
   v1::GetJobRequest request;
   request.set_name(name);
   request.set_view(view);
-  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->GetJob(c, request, r); });
+  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->GetJob(c, request, r); });
 }
 
 v1::ListJobsResponse JobClient::list(const v1::ListJobsRequest& request) {
-  return unary<v1::ListJobsResponse>(authorization_, [&](auto* c, auto* r) { return jobs_->ListJobs(c, request, r); });
+  return unary<v1::ListJobsResponse>(link_, [&](auto* c, auto* r) { return jobs_->ListJobs(c, request, r); });
 }
 
 v1::Job JobClient::cancel(const std::string& name) {
   v1::CancelJobRequest request;
   request.set_name(name);
-  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->CancelJob(c, request, r); });
+  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->CancelJob(c, request, r); });
 }
 
 v1::Job JobClient::kill(const std::string& name) {
   v1::KillJobRequest request;
   request.set_name(name);
-  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->KillJob(c, request, r); });
+  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->KillJob(c, request, r); });
 }
 
 v1::Job JobClient::hold(const std::string& name) {
   v1::HoldJobRequest request;
   request.set_name(name);
-  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->HoldJob(c, request, r); });
+  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->HoldJob(c, request, r); });
 }
 
 v1::Job JobClient::release(const std::string& name) {
   v1::ReleaseJobRequest request;
   request.set_name(name);
-  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->ReleaseJob(c, request, r); });
+  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->ReleaseJob(c, request, r); });
 }
 
 v1::Job JobClient::retry(const v1::RetryJobRequest& request) {
-  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->RetryJob(c, request, r); }, 60);
+  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->RetryJob(c, request, r); }, 60);
 }
 
 v1::Job JobClient::update(const v1::UpdateJobRequest& request) {
-  return unary<v1::Job>(authorization_, [&](auto* c, auto* r) { return jobs_->UpdateJob(c, request, r); });
+  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->UpdateJob(c, request, r); });
 }
 
 v1::ServerInfo JobClient::info() {
-  return unary<v1::ServerInfo>(authorization_, [&](auto* c, auto* r) { return admin_->GetServerInfo(c, {}, r); });
+  return unary<v1::ServerInfo>(link_, [&](auto* c, auto* r) { return admin_->GetServerInfo(c, {}, r); });
 }
 
 void JobClient::set_log_level(const std::string& level) {
   v1::SetLogLevelRequest request;
   request.set_level(level);
-  unary<v1::SetLogLevelResponse>(authorization_, [&](auto* c, auto* r) { return admin_->SetLogLevel(c, request, r); });
+  unary<v1::SetLogLevelResponse>(link_, [&](auto* c, auto* r) { return admin_->SetLogLevel(c, request, r); });
 }
 
 v1::DecayReport JobClient::decay(const v1::GetDecayReportRequest& request) {
-  return unary<v1::DecayReport>(authorization_, [&](auto* c, auto* r) { return reports_->GetDecayReport(c, request, r); }, 60);
+  return unary<v1::DecayReport>(link_, [&](auto* c, auto* r) { return reports_->GetDecayReport(c, request, r); }, 60);
 }
 
 v1::RaoReport JobClient::rao(const v1::GetRaoReportRequest& request) {
-  return unary<v1::RaoReport>(authorization_, [&](auto* c, auto* r) { return reports_->GetRaoReport(c, request, r); }, 300);
+  return unary<v1::RaoReport>(link_, [&](auto* c, auto* r) { return reports_->GetRaoReport(c, request, r); }, 300);
 }
 
 v1::CreateSweepResponse JobClient::create_sweep(const v1::CreateSweepRequest& request) {
-  return unary<v1::CreateSweepResponse>(authorization_, [&](auto* c, auto* r) { return sweeps_->CreateSweep(c, request, r); }, 300);
+  return unary<v1::CreateSweepResponse>(link_, [&](auto* c, auto* r) { return sweeps_->CreateSweep(c, request, r); }, 300);
 }
 
 v1::Sweep JobClient::sweep(const std::string& name) {
   v1::GetSweepRequest request;
   request.set_name(name);
-  return unary<v1::Sweep>(authorization_, [&](auto* c, auto* r) { return sweeps_->GetSweep(c, request, r); });
+  return unary<v1::Sweep>(link_, [&](auto* c, auto* r) { return sweeps_->GetSweep(c, request, r); });
 }
 
 v1::ListSweepsResponse JobClient::list_sweeps(const v1::ListSweepsRequest& request) {
-  return unary<v1::ListSweepsResponse>(authorization_, [&](auto* c, auto* r) { return sweeps_->ListSweeps(c, request, r); });
+  return unary<v1::ListSweepsResponse>(link_, [&](auto* c, auto* r) { return sweeps_->ListSweeps(c, request, r); });
 }
 
 v1::Sweep JobClient::cancel_sweep(const std::string& name) {
   v1::CancelSweepRequest request;
   request.set_name(name);
-  return unary<v1::Sweep>(authorization_, [&](auto* c, auto* r) { return sweeps_->CancelSweep(c, request, r); }, 60);
+  return unary<v1::Sweep>(link_, [&](auto* c, auto* r) { return sweeps_->CancelSweep(c, request, r); }, 60);
 }
 
 v1::ReadEnvelopeResponse JobClient::envelope(const v1::ReadEnvelopeRequest& request) {
-  return unary<v1::ReadEnvelopeResponse>(authorization_, [&](auto* c, auto* r) { return telemetry_->ReadEnvelope(c, request, r); }, 30);
+  return unary<v1::ReadEnvelopeResponse>(link_, [&](auto* c, auto* r) { return telemetry_->ReadEnvelope(c, request, r); }, 30);
 }
 
 grpc::Status JobClient::watch_jobs(std::int64_t after, const std::function<bool(const v1::WatchJobsResponse&)>& message) {
   v1::WatchJobsRequest request;
   request.set_after_revision(after);
   grpc::ClientContext context;
-  authorize(context, authorization_);
+  authorize(context, link_.authorization);
   const auto reader = telemetry_->WatchJobs(&context, request);
   v1::WatchJobsResponse response;
   while (reader->Read(&response)) {
@@ -232,23 +238,23 @@ grpc::Status JobClient::watch_jobs(std::int64_t after, const std::function<bool(
 void JobClient::erase(const std::string& name) {
   v1::DeleteJobRequest request;
   request.set_name(name);
-  unary<v1::DeleteJobResponse>(authorization_, [&](auto* c, auto* r) { return jobs_->DeleteJob(c, request, r); });
+  unary<v1::DeleteJobResponse>(link_, [&](auto* c, auto* r) { return jobs_->DeleteJob(c, request, r); });
 }
 
 v1::CaseReport JobClient::validate(const v1::ValidateCaseRequest& request) {
-  return unary<v1::CaseReport>(authorization_, [&](auto* c, auto* r) { return cases_->ValidateCase(c, request, r); }, 60);
+  return unary<v1::CaseReport>(link_, [&](auto* c, auto* r) { return cases_->ValidateCase(c, request, r); }, 60);
 }
 
 v1::ListStagesResponse JobClient::stages(const std::string& name) {
   v1::ListStagesRequest request;
   request.set_job(name);
-  return unary<v1::ListStagesResponse>(authorization_, [&](auto* c, auto* r) { return stages_->ListStages(c, request, r); });
+  return unary<v1::ListStagesResponse>(link_, [&](auto* c, auto* r) { return stages_->ListStages(c, request, r); });
 }
 
 v1::ListArtifactsResponse JobClient::artifacts(const std::string& name) {
   v1::ListArtifactsRequest request;
   request.set_job(name);
-  return unary<v1::ListArtifactsResponse>(authorization_, [&](auto* c, auto* r) { return artifacts_->ListArtifacts(c, request, r); });
+  return unary<v1::ListArtifactsResponse>(link_, [&](auto* c, auto* r) { return artifacts_->ListArtifacts(c, request, r); });
 }
 
 void JobClient::history(const std::string& name, const std::function<void(const v1::ReadSamplesResponse&)>& page) {
@@ -257,7 +263,7 @@ void JobClient::history(const std::string& name, const std::function<void(const 
   request.set_page_size(5000);
   for (;;) {
     const auto response =
-        unary<v1::ReadSamplesResponse>(authorization_, [&](auto* c, auto* r) { return telemetry_->ReadSamples(c, request, r); }, 30);
+        unary<v1::ReadSamplesResponse>(link_, [&](auto* c, auto* r) { return telemetry_->ReadSamples(c, request, r); }, 30);
     page(response);
     if (response.chunk().times_s_size() == 0) return;
     request.set_after_sequence(response.chunk().first_sequence() + response.chunk().times_s_size() - 1);
@@ -271,7 +277,7 @@ void JobClient::download(const std::string& name, const std::string& artifact,
   request.set_artifact(artifact);
   for (int failures = 0;;) {
     grpc::ClientContext context;
-    authorize(context, authorization_);
+    authorize(context, link_.authorization);
     set_deadline(context, 600);
     const auto reader = artifacts_->DownloadArtifact(&context, request);
     v1::DownloadArtifactResponse response;
@@ -283,9 +289,11 @@ void JobClient::download(const std::string& name, const std::string& artifact,
     const grpc::Status status = reader->Finish();
     if (status.ok()) return;
     if (status.error_code() != grpc::StatusCode::UNAVAILABLE || ++failures > 10) check(status);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200 * failures));
+    pause(std::chrono::milliseconds(200 * failures));
   }
 }
+
+void JobClient::pause(std::chrono::milliseconds time) { client::pause(*link_.channel, time); }
 
 grpc::Status JobClient::watch(const std::string& name, std::int64_t after,
                               const std::function<bool(const v1::WatchSamplesResponse&)>& message) {
@@ -293,7 +301,7 @@ grpc::Status JobClient::watch(const std::string& name, std::int64_t after,
   request.set_job(name);
   request.set_after_sequence(after);
   grpc::ClientContext context;
-  authorize(context, authorization_);
+  authorize(context, link_.authorization);
   const auto reader = telemetry_->WatchSamples(&context, request);
   v1::WatchSamplesResponse response;
   while (reader->Read(&response)) {

@@ -6,6 +6,7 @@
 #include <grpcpp/channel.h>
 #include <grpcpp/support/status.h>
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -55,6 +56,12 @@ struct Credentials {
   std::string ca, certificate, key, token;
 };
 
+/// Where calls go, and in whose name.
+struct Link {
+  std::shared_ptr<grpc::Channel> channel;
+  std::string authorization;  ///< of each call; empty: none
+};
+
 class JobClient {
  public:
   /// TLS if there is a ca. Throws ClientError for files that cannot be read.
@@ -92,6 +99,8 @@ class JobClient {
   /// The whole history, page by page.
   void history(const std::string& name, const std::function<void(const v1::ReadSamplesResponse&)>& page);
   void download(const std::string& name, const std::string& artifact, const std::function<void(const std::string&)>& piece);
+  /// Waits so long, or until a connection that is missing has been made: before a stream is tried again.
+  void pause(std::chrono::milliseconds time);
   /// One stream until it ends; `message` returns false to leave it.
   grpc::Status watch(const std::string& name, std::int64_t after,
                      const std::function<bool(const v1::WatchSamplesResponse&)>& message);
@@ -102,7 +111,7 @@ class JobClient {
   std::string resolve_sweep(const std::string& sweep);
 
  private:
-  std::shared_ptr<grpc::Channel> channel_;
+  Link link_;  // first: the others are made of it
   std::unique_ptr<v1::Jobs::Stub> jobs_;
   std::unique_ptr<v1::Telemetry::Stub> telemetry_;
   std::unique_ptr<v1::Stages::Stub> stages_;
@@ -111,7 +120,6 @@ class JobClient {
   std::unique_ptr<v1::Sweeps::Stub> sweeps_;
   std::unique_ptr<v1::Admin::Stub> admin_;
   std::unique_ptr<v1::Cases::Stub> cases_;
-  std::string authorization_;
 };
 
 /// A random UUID (version 4).

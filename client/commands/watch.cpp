@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
-#include <thread>
 
 #include "client/commands/commands.hpp"
 #include "proto/json.hpp"
@@ -153,7 +152,7 @@ int follow(JobClient& client, const std::string& name, std::int64_t after, bool 
     const bool tired = give_up_s > 0 && Clock::now() - reached > std::chrono::duration<double>(give_up_s);
     if (tired) throw RpcError(status);
     follower.lost(status.error_message());
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    client.pause(std::chrono::milliseconds(500));
   }
   follower.end();
   const v1::ProgressMark& mark = follower.mark();

@@ -64,6 +64,23 @@ class Witness {
   std::jthread thread_;
 };
 
+TEST(Kill, AClientThatHasSeenALongAbsenceFindsTheNextServerWithinASecond) {
+  TempFolder folder;
+  Daemon daemon(SEAWAY_BUILD_DIR "/tests/seaway_fake_daemon", folder.path());
+  daemon.start();
+  JobClient client(daemon.address());
+  EXPECT_EQ(client.list({}).jobs_size(), 0);
+  for (const int absence_ms : {1000, 3500, 5500}) {
+    daemon.kill();
+    const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(absence_ms);
+    while (std::chrono::steady_clock::now() < until) EXPECT_THROW(client.list({}), client::RpcError);
+    daemon.start();
+    const auto began = std::chrono::steady_clock::now();
+    EXPECT_NO_THROW(client.list({})) << "after " << absence_ms << " ms";
+    EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(2));
+  }
+}
+
 TEST(Kill, LosesNoAcknowledgedJobAndNoReceivedSample) {
   TempFolder folder;
   const unsigned seed = std::getenv("SEAWAY_SEED") != nullptr ? static_cast<unsigned>(std::atoi(std::getenv("SEAWAY_SEED"))) : std::random_device{}();
