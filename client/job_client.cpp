@@ -66,6 +66,14 @@ void pause(grpc::Channel& channel, std::chrono::milliseconds time) {
   else std::this_thread::sleep_until(until);
 }
 
+/// The request that has but the name of what it is about.
+template <class Request>
+Request of(const std::string& name) {
+  Request request;
+  request.set_name(name);
+  return request;
+}
+
 /// All calls of the service can be repeated, so a connection that breaks (a restart of the server) is tried again.
 template <class Response, class Call>
 Response unary(const Link& link, Call call, int seconds = 10) {
@@ -146,27 +154,19 @@ v1::ListJobsResponse JobClient::list(const v1::ListJobsRequest& request) {
 }
 
 v1::Job JobClient::cancel(const std::string& name) {
-  v1::CancelJobRequest request;
-  request.set_name(name);
-  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->CancelJob(c, request, r); });
+  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->CancelJob(c, of<v1::CancelJobRequest>(name), r); });
 }
 
 v1::Job JobClient::kill(const std::string& name) {
-  v1::KillJobRequest request;
-  request.set_name(name);
-  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->KillJob(c, request, r); });
+  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->KillJob(c, of<v1::KillJobRequest>(name), r); });
 }
 
 v1::Job JobClient::hold(const std::string& name) {
-  v1::HoldJobRequest request;
-  request.set_name(name);
-  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->HoldJob(c, request, r); });
+  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->HoldJob(c, of<v1::HoldJobRequest>(name), r); });
 }
 
 v1::Job JobClient::release(const std::string& name) {
-  v1::ReleaseJobRequest request;
-  request.set_name(name);
-  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->ReleaseJob(c, request, r); });
+  return unary<v1::Job>(link_, [&](auto* c, auto* r) { return jobs_->ReleaseJob(c, of<v1::ReleaseJobRequest>(name), r); });
 }
 
 v1::Job JobClient::retry(const v1::RetryJobRequest& request) {
@@ -200,9 +200,7 @@ v1::CreateSweepResponse JobClient::create_sweep(const v1::CreateSweepRequest& re
 }
 
 v1::Sweep JobClient::sweep(const std::string& name) {
-  v1::GetSweepRequest request;
-  request.set_name(name);
-  return unary<v1::Sweep>(link_, [&](auto* c, auto* r) { return sweeps_->GetSweep(c, request, r); });
+  return unary<v1::Sweep>(link_, [&](auto* c, auto* r) { return sweeps_->GetSweep(c, of<v1::GetSweepRequest>(name), r); });
 }
 
 v1::ListSweepsResponse JobClient::list_sweeps(const v1::ListSweepsRequest& request) {
@@ -210,9 +208,8 @@ v1::ListSweepsResponse JobClient::list_sweeps(const v1::ListSweepsRequest& reque
 }
 
 v1::Sweep JobClient::cancel_sweep(const std::string& name) {
-  v1::CancelSweepRequest request;
-  request.set_name(name);
-  return unary<v1::Sweep>(link_, [&](auto* c, auto* r) { return sweeps_->CancelSweep(c, request, r); }, 60);
+  return unary<v1::Sweep>(
+      link_, [&](auto* c, auto* r) { return sweeps_->CancelSweep(c, of<v1::CancelSweepRequest>(name), r); }, 60);
 }
 
 v1::ReadEnvelopeResponse JobClient::envelope(const v1::ReadEnvelopeRequest& request) {
@@ -236,9 +233,7 @@ grpc::Status JobClient::watch_jobs(std::int64_t after, const std::function<bool(
 }
 
 void JobClient::erase(const std::string& name) {
-  v1::DeleteJobRequest request;
-  request.set_name(name);
-  unary<v1::DeleteJobResponse>(link_, [&](auto* c, auto* r) { return jobs_->DeleteJob(c, request, r); });
+  unary<v1::DeleteJobResponse>(link_, [&](auto* c, auto* r) { return jobs_->DeleteJob(c, of<v1::DeleteJobRequest>(name), r); });
 }
 
 v1::CaseReport JobClient::validate(const v1::ValidateCaseRequest& request) {
