@@ -136,11 +136,13 @@ bool Multigrid<Dim>::has_jump(int b) const {
 
 template <int Dim>
 void Multigrid<Dim>::find_blocks_at_jumps() {
+  std::vector<char> found(static_cast<std::size_t>(forest_.level_begin(forest_.n_levels() - 1)), 0);
+  mesh::parallel_for(static_cast<int>(found.size()), forest_.threads(), [&](int b) { found[static_cast<std::size_t>(b)] = has_jump(b); });
   for (int level = 1; level < forest_.n_levels() - 1; ++level) {
     auto& blocks = at_jumps_[static_cast<std::size_t>(level)];
     blocks.clear();
     for (int b = forest_.level_begin(level); b < forest_.level_begin(level + 1); ++b)
-      if (has_jump(b)) blocks.push_back(b);
+      if (found[static_cast<std::size_t>(b)]) blocks.push_back(b);
   }
 }
 

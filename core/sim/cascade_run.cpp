@@ -204,10 +204,8 @@ bool CascadeRun<Dim>::stage_is_over() const {
   const double elapsed = simulation_->time() - stage_.start_time;
   if (end.kind == EndRule::Kind::time) return elapsed >= end.duration - 0.5 * simulation_->dt();
   if (model_->hull && !simulation_->body().released) return false;
-  const auto count = static_cast<double>(motion_monitor_.count());
-  if (count >= end.max_periods) return true;
-  return count >= std::max(end.min_periods, 2.0) &&
-         motion_monitor_.motion_change(recorder_.free_motions(), 2) < end.tolerance;
+  if (static_cast<double>(motion_monitor_.count()) >= end.max_periods) return true;
+  return motion_monitor_.repeats(recorder_.free_motions(), end.tolerance, end.min_periods);
 }
 
 template <int Dim>

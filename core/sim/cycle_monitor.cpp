@@ -89,6 +89,10 @@ double CycleMonitor::motion_change(const std::vector<std::size_t>& signals, std:
   return largest;
 }
 
+bool CycleMonitor::repeats(const std::vector<std::size_t>& signals, double tolerance, double least) const {
+  return static_cast<double>(cycles_.size()) >= std::max(least, 2.0) && motion_change(signals, 2) < tolerance;
+}
+
 CycleMonitor::Signal CycleMonitor::average(std::size_t signal, std::size_t n) const {
   Signal out;
   const std::size_t count = std::min(n, cycles_.size());

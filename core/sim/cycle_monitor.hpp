@@ -31,6 +31,8 @@ class CycleMonitor {
   /// Largest change of amplitude, mean (both relative to the amplitude) and period (phase drift) per
   /// `back` cycles.
   double motion_change(const std::vector<std::size_t>& signals, std::size_t back) const;
+  /// Whether the motions repeat: at least `least` cycles, two or more, and less change than `tolerance` over the last two.
+  bool repeats(const std::vector<std::size_t>& signals, double tolerance, double least) const;
   /// Mean over the last `n` cycles.
   Signal average(std::size_t signal, std::size_t n) const;
   /// Period of a signal: the monitor's, corrected by the phase drift over the last `n` cycles.

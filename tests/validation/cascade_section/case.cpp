@@ -56,8 +56,8 @@ sim::Case single_mesh(const sim::Case& example) {
 
 /// A run until its motions have converged: what a user waits for.
 struct Answer {
-  double time = 0, cpu_s = 0;    ///< [s]
-  double roll = 0, heave = 0;    ///< amplitudes [rad], [m]
+  double time = 0, cpu_s = 0;  ///< [s]
+  double roll = 0, heave = 0;  ///< amplitudes [rad], [m]
 };
 
 Answer answer_of(const RunRecord& run, double time, double period) {

@@ -3,11 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <fstream>
 #include <sstream>
 
-#include "core/base/constants.hpp"
 #include "core/base/error.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/validation/report/kept_cases.hpp"
@@ -60,29 +58,6 @@ TEST(KeptRuns, ARunOfAnotherTextOfTheExampleIsRunAgain) {
   const testing::TempFolder folder;
   save(decay(digest_of_run("run") + "0"), folder / "run.json");
   EXPECT_THROW(KeptRuns(folder.path(), "case").finished("run", example, {}, 1, {}), std::exception);
-}
-
-TEST(RunRecord, ConvergesWhenTheSwingsRepeatByTheRuleOfAStage) {
-  // Amplitude 1 + exp(-n) after n periods: its change over two periods is below 1 % from exp(-n) (e^2 - 1) < 0.01 on,
-  // that is from the mean of the eighth period; the stage starts at the second.
-  RunRecord r;
-  constexpr double period = 1.4;
-  for (int i = 0; i <= 2000; ++i) {
-    const double n = i / 100.0;
-    r.t.push_back(n * period);
-    r.roll.push_back(n < 2 ? 5.0 : (1 + std::exp(2 - n)) * std::cos(2 * pi * n));
-    r.heave.push_back(0.01 * std::sin(2 * pi * n));
-  }
-  sim::EndRule rule;
-  rule.min_periods = 4;
-  const double at = r.converged_at(2 * period, rule, period);
-  EXPECT_GT(at, 8.5 * period);
-  EXPECT_LT(at, 10.5 * period);
-  EXPECT_NEAR(std::remainder(at, period), 0, 1e-6);  // rules are looked at when a period is over
-  rule.min_periods = 12;
-  EXPECT_NEAR(r.converged_at(2 * period, rule, period), 14 * period, 1e-6);
-  rule.tolerance = 1e-12;
-  EXPECT_TRUE(std::isinf(r.converged_at(2 * period, rule, period)));
 }
 
 }  // namespace

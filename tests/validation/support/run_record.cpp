@@ -103,9 +103,7 @@ double RunRecord::converged_at(double start, const sim::EndRule& rule, double pe
   for (std::size_t i = 0; i < t.size(); ++i) {
     if (t[i] < start - 1e-9) continue;
     monitor.add(t[i], {roll[i], heave[i]});
-    if (static_cast<double>(monitor.count()) >= std::max(rule.min_periods, 2.0) &&
-        monitor.motion_change({0, 1}, 2) < rule.tolerance)
-      return t[i];
+    if (monitor.repeats({0, 1}, rule.tolerance, rule.min_periods)) return t[i];
   }
   return std::numeric_limits<double>::infinity();
 }
