@@ -10,24 +10,30 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")  # core adds -O3: elsewhere it takes long to compile and gains nothing
 
 find_program(SEAWAY_CCACHE ccache)
 if(SEAWAY_CCACHE)
   # Paths relative to the source folder: several checkouts share one cache.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
-      ${SEAWAY_CCACHE})
+      CCACHE_SLOPPINESS=pch_defines,time_macros ${SEAWAY_CCACHE})  # what it needs for precompiled headers
 endif()
 
 add_library(seaway_flags INTERFACE)
 target_include_directories(seaway_flags INTERFACE ${PROJECT_SOURCE_DIR})
-target_compile_options(seaway_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion)
+# Eigen's matrix products stay on their thread: blocking, and with it the last digit, would depend on the number of threads.
+target_compile_definitions(seaway_flags INTERFACE EIGEN_DONT_PARALLELIZE)
+target_compile_options(seaway_flags INTERFACE -pthread -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC 12 warns about its own headers: AVX-512 (bug 105593), std::string (105651), std::optional and std::regex.
+  target_compile_options(seaway_flags INTERFACE -Wno-uninitialized -Wno-maybe-uninitialized -Wno-restrict)
+endif()
 # -fno-math-errno and -fno-trapping-math let loops vectorise and change no result; NaN stays visible.
-target_compile_options(seaway_flags INTERFACE $<$<CONFIG:Release>:-O3> -fno-math-errno -fno-trapping-math)
+target_compile_options(seaway_flags INTERFACE -fno-math-errno -fno-trapping-math)
 # No contraction: the same source gives the same bits whatever gets inlined where.
 target_compile_options(seaway_flags INTERFACE -ffp-contract=off)
 if(SEAWAY_NATIVE)

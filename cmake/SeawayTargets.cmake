@@ -1,9 +1,19 @@
+# seaway_use_precompiled_headers(TARGET [_test])  those of the folder (SeawayPrecompiledHeaders.cmake), if it has any.
+function(seaway_use_precompiled_headers target)
+  if(SEAWAY_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} REUSE_FROM seaway_headers_${SEAWAY_PRECOMPILED_HEADERS}${ARGN})
+    # The compiler leaves the set aside where its macros are not those of the file.
+    target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
+  endif()
+endfunction()
+
 # seaway_library(NAME SOURCES ... DEPENDS ...)  static library seaway_NAME with alias seaway::NAME.
 function(seaway_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   if(ARG_SOURCES)
     add_library(seaway_${name} STATIC ${ARG_SOURCES})
     target_link_libraries(seaway_${name} PUBLIC seaway_flags ${ARG_DEPENDS})
+    seaway_use_precompiled_headers(seaway_${name})
   else()
     add_library(seaway_${name} INTERFACE)
     target_link_libraries(seaway_${name} INTERFACE seaway_flags ${ARG_DEPENDS})
@@ -24,6 +34,7 @@ function(seaway_test name)
   else()
     target_link_libraries(seaway_test_${name} PRIVATE GTest::gmock_main)
   endif()
+  seaway_use_precompiled_headers(seaway_test_${name} _test)
   add_test(NAME ${name} COMMAND seaway_test_${name})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)

@@ -78,7 +78,9 @@ void FakeFault::strike() {
   if (kind_ == "deaf") deaf_ = true;
   if (kind_ == "throw") throw std::runtime_error("thrown on purpose");
   if (kind_ == "hang")
-    for (volatile unsigned long n = 0;; n = n + 1) {
+    for (volatile unsigned long n = 0;;) {
+      const unsigned long next = n + 1;
+      n = next;
     }
 }
 

@@ -11,7 +11,7 @@
 namespace seaway::validation {
 namespace {
 
-constexpr const char* example = "dtmb5415_section_beam_waves.yaml";
+constexpr const char* example_file = "dtmb5415_section_beam_waves.yaml";
 
 /// A few seconds of the same, to see that it works: no bars.
 void shorten(sim::Case& c) {
@@ -70,10 +70,10 @@ void run_cascade_section(const Context& context, Results& results) {
   const KeptRuns runs(context.results, "cascade_section");
   sim::Case c = example_case();
   if (context.quick()) shorten(c);
-  const RunRecord cascade = runs.finished("cascade", example, long_cascade(c), context.threads, {});
+  const RunRecord cascade = runs.finished("cascade", example_file, long_cascade(c), context.threads, {});
   const double end = cascade.end_time();
   const RunRecord single =
-      runs.finished("single", example, single_mesh(c), context.threads,
+      runs.finished("single", example_file, single_mesh(c), context.threads,
                    [&](double t, int stage) { return stage > 0 && t >= end - 1e-9; });
   if (!context.results.empty()) {
     std::ofstream(runs.file("table.md")) << table_of(cascade, single);

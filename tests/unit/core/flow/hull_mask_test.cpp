@@ -13,8 +13,8 @@ namespace {
 using namespace testing;
 
 class Angles : public ::testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(HullMask, Angles, ::testing::Values(0.0, 7.3, 15.0), [](const auto& info) {
-  return std::to_string(static_cast<int>(info.param));
+INSTANTIATE_TEST_SUITE_P(HullMask, Angles, ::testing::Values(0.0, 7.3, 15.0), [](const auto& angle) {
+  return std::to_string(static_cast<int>(angle.param));
 });
 
 TEST_P(Angles, FluidFractionsLeaveOutExactlyTheHull) {

@@ -91,7 +91,8 @@ TEST(SlipFlux, LeavesEdgesAlone) {
       any = any || flux != 0;
       const Vec2 x = motion::earth_to_hull<2>(tank.body, pose, mask.window().face_centre(i, axis));
       const Vec2 from_corner(0.5 * beam - std::abs(x[0]), 0.5 * height - std::abs(x[1] - 0.5 * height));
-      if (from_corner.cwiseAbs().maxCoeff() < 0.5 * mask.window().h()[0]) ASSERT_EQ(flux, 0) << x.transpose();
+      if (from_corner.cwiseAbs().maxCoeff() >= 0.5 * mask.window().h()[0]) return;
+      ASSERT_EQ(flux, 0) << x.transpose();
     });
   EXPECT_TRUE(any);
 }

@@ -47,9 +47,12 @@ void neighbours_are_those_that_touch(bool periodic) {
     const auto part = make_part(f, around);
     EXPECT_EQ(part.cut_sides[static_cast<std::size_t>(chosen)], 0);
     for (const int b : f.leaves()) {
-      if (touch(f, chosen, b)) EXPECT_TRUE(around[static_cast<std::size_t>(b)]) << chosen << " " << b;
-      // Beyond those only what completes a face between levels: leaves finer than one that touches.
-      else if (around[static_cast<std::size_t>(b)]) EXPECT_EQ(f.block(b).level, f.block(chosen).level);
+      if (touch(f, chosen, b)) {
+        EXPECT_TRUE(around[static_cast<std::size_t>(b)]) << chosen << " " << b;
+      } else if (around[static_cast<std::size_t>(b)]) {
+        // Beyond those only what completes a face between levels: leaves finer than one that touches.
+        EXPECT_EQ(f.block(b).level, f.block(chosen).level);
+      }
     }
   }
 }
@@ -94,8 +97,12 @@ void sides_are_cut_for_both(unsigned pick) {
       for (int side = 0; side < 2; ++side) {
         const int nb = f.block(b).neighbour[static_cast<std::size_t>(face_neighbour<Dim>(axis, side))];
         cut += part.is_cut(b, axis, side);
-        if (nb == no_block) EXPECT_FALSE(part.is_cut(b, axis, side));
-        if (nb >= 0 && f.block(nb).leaf) EXPECT_EQ(part.is_cut(b, axis, side), !chosen[static_cast<std::size_t>(nb)]);
+        if (nb == no_block) {
+          EXPECT_FALSE(part.is_cut(b, axis, side));
+        }
+        if (nb >= 0 && f.block(nb).leaf) {
+          EXPECT_EQ(part.is_cut(b, axis, side), !chosen[static_cast<std::size_t>(nb)]);
+        }
         if (nb < 0 || f.block(nb).leaf) continue;
         bool all = true;  // a jump is open for the coarse leaf and every fine one on it, or for none
         for (int c = 0; c < BlockShape<Dim>::children; ++c)
@@ -103,8 +110,9 @@ void sides_are_cut_for_both(unsigned pick) {
         EXPECT_EQ(part.is_cut(b, axis, side), !all);
         for (int c = 0; c < BlockShape<Dim>::children; ++c) {
           const int child = f.block(nb).child[static_cast<std::size_t>(c)];
-          if (((c >> axis) & 1) == 1 - side && chosen[static_cast<std::size_t>(child)])
+          if (((c >> axis) & 1) == 1 - side && chosen[static_cast<std::size_t>(child)]) {
             EXPECT_EQ(part.is_cut(child, axis, 1 - side), !all);
+          }
         }
       }
   EXPECT_GT(cut, 0);
@@ -118,7 +126,9 @@ void sides_are_cut_for_both(unsigned pick) {
     for (int axis = 0; axis < Dim; ++axis)
       for (int side = 0; side < 2; ++side) {
         const int nb = f.block(b).neighbour[static_cast<std::size_t>(face_neighbour<Dim>(axis, side))];
-        if (nb >= 0 && f.block(nb).leaf && part.is_cut(b, axis, side)) EXPECT_TRUE(rim.contains({nb, axis, 1 - side}));
+        if (nb >= 0 && f.block(nb).leaf && part.is_cut(b, axis, side)) {
+          EXPECT_TRUE(rim.contains({nb, axis, 1 - side}));
+        }
       }
 }
 TEST(ForestPart, BothLeavesOfASideSeeItCutIn2D) { sides_are_cut_for_both<2>(3); }
