@@ -14,7 +14,6 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
-set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")  # core adds -O3: elsewhere it takes long to compile and gains nothing
 
 find_program(SEAWAY_CCACHE ccache)
 if(SEAWAY_CCACHE)
@@ -33,7 +32,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
   target_compile_options(seaway_flags INTERFACE -Wno-uninitialized -Wno-maybe-uninitialized -Wno-restrict)
 endif()
 # -fno-math-errno and -fno-trapping-math let loops vectorise and change no result; NaN stays visible.
-target_compile_options(seaway_flags INTERFACE -fno-math-errno -fno-trapping-math)
+target_compile_options(seaway_flags INTERFACE $<$<CONFIG:Release>:-O3> -fno-math-errno -fno-trapping-math)
 # No contraction: the same source gives the same bits whatever gets inlined where.
 target_compile_options(seaway_flags INTERFACE -ffp-contract=off)
 if(SEAWAY_NATIVE)

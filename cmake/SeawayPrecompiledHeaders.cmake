@@ -1,6 +1,8 @@
 # Headers of other projects, compiled once: most of the time to compile a file of ours went into them. A folder names
 # its set in SEAWAY_PRECOMPILED_HEADERS, for itself and the folders below it; its tests take SET_test, with GoogleTest.
 # Every file still includes what it uses: preset dev builds without them.
+# GCC compiles a file with the optimisation of its set and says nothing if the file's own options are others (-O3 became
+# -O2 so, and the solver took 1.7 times as long): a target with options of its own has to do without.
 find_package(Eigen3 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(Protobuf REQUIRED)
