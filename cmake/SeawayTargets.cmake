@@ -1,8 +1,8 @@
-# seaway_use_precompiled_headers(TARGET [_test])  those of the folder (SeawayPrecompiledHeaders.cmake), if it has any.
+# seaway_use_precompiled_headers(TARGET [_test])  if the folder has them (SeawayPrecompiledHeaders.cmake); _test: GoogleTest's too.
 function(seaway_use_precompiled_headers target)
   if(SEAWAY_PRECOMPILED_HEADERS)
-    target_precompile_headers(${target} REUSE_FROM seaway_headers_${SEAWAY_PRECOMPILED_HEADERS}${ARGN})
-    # The compiler leaves the set aside where its macros are not those of the file.
+    target_precompile_headers(${target} REUSE_FROM seaway_headers${ARGN})
+    # The compiler leaves them aside where their macros are not those of the file.
     target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
   endif()
 endfunction()

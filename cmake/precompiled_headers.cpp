@@ -1,1 +1,1 @@
-// Empty: what a set of precompiled headers is compiled for (SeawayPrecompiledHeaders.cmake).
+// Empty: what the precompiled headers are compiled for (SeawayPrecompiledHeaders.cmake).
