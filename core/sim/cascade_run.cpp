@@ -364,7 +364,7 @@ void CascadeRun<Dim>::report_progress(bool force) {
     double elapsed = s < stage_.index ? duration : 0;
     if (s == stage_.index) {
       elapsed = simulation_->time() - stage_.start_time;
-      total += cells * std::max(duration, elapsed * (stage_.finished ? 1.0 : 1.05));
+      total += cells * (stage_.finished ? elapsed : std::max(duration, elapsed * 1.05));
       done += cells * elapsed;
       continue;
     }
@@ -373,7 +373,9 @@ void CascadeRun<Dim>::report_progress(bool force) {
   }
   progress.fraction = total > 0 ? std::min(1.0, done / total) : 0;
   const double wall = seconds_since(run_begun_);
-  if (work_done_ > 0 && wall > 1)
+  if (done == total)
+    progress.remaining_s = 0;
+  else if (work_done_ > 0 && wall > 1)
     progress.remaining_s = (total - done) / simulation_->dt() * wall / work_done_;
   observer_.on_progress(progress);
 }

@@ -66,6 +66,8 @@ const std::vector<Case>& all_cases() {
       {"dtmb5415_decay_damaged", Suite::ships,
        "roll decay of the ship with two flooded compartments from 18.3 degrees: nine cycles against the towing tank",
        run_dtmb5415_decay_damaged, "ship_decay"},
+      {"dtmb5415_damping", Suite::ships, "roll decay of both ships with slip, friction and turbulence: damping",
+       run_dtmb5415_damping, "ship_damping"},
       {"dtmb5415_beam_waves", Suite::ships, "the ship in the paper's beam waves, damaged and intact: roll and heave",
        run_dtmb5415_beam_waves, "ship_beam_waves"},
       {"cascade_section", Suite::full,

@@ -55,6 +55,7 @@ void run_ship_at_rest(const Context& context, Results& results);
 void run_ship_held(const Context& context, Results& results);
 void run_dtmb5415_decay_intact(const Context& context, Results& results);
 void run_dtmb5415_decay_damaged(const Context& context, Results& results);
+void run_dtmb5415_damping(const Context& context, Results& results);
 void run_dtmb5415_beam_waves(const Context& context, Results& results);
 void run_cascade_section(const Context& context, Results& results);
 void run_viscous_wave(const Context& context, Results& results);

@@ -190,7 +190,7 @@ std::string report_html(const ReportInput& input) {
                      t.quantities, t.failed);
   if (!input.missing.empty()) {
     out += "<p class='fail'>Not finished:";
-    for (const std::string& name : input.missing) out += " " + escaped(name);
+    for (const std::string& name : input.missing) out += fmt::format(" {}", escaped(name));
     out += "</p>\n";
   }
   out += "<p class='note'>Code " + escaped(input.code) +

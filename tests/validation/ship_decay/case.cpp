@@ -1,5 +1,4 @@
 // [dtmb5415_decay_intact], [dtmb5415_decay_damaged] Free roll of the DTMB 5415 against the towing tank; see README.md.
-#include "core/analysis/decay.hpp"
 #include "core/base/constants.hpp"
 #include "core/base/error.hpp"
 #include "tests/validation/cases.hpp"
@@ -11,12 +10,6 @@ namespace {
 
 constexpr double measured_period = 1.40;  // intact, towing tank
 
-analysis::Decay decay_of_roll(const RunRecord& run) {
-  std::vector<double> angle;
-  for (const double roll : run.roll) angle.push_back(roll / degree);
-  return analysis::analyse_decay({run.t, angle});
-}
-
 /// The decay of an example's roll [deg], run or read; its cost is reported.
 analysis::Decay decay_of(const std::string& name, const std::string& example, const Context& context,
                          Results& results) {
@@ -24,7 +17,7 @@ analysis::Decay decay_of(const std::string& name, const std::string& example, co
   const RunRecord run = runs.finished(name, example, example_case(example), context.threads, {});
   results.report("cells", static_cast<double>(run.stages.back().cells), "1");
   results.report("cpu_s_per_s", run.total_cpu_s / run.end_time(), "1");
-  return decay_of_roll(run);
+  return run.roll_decay();
 }
 
 const analysis::DecayCycle& cycle(const analysis::Decay& decay, std::size_t number) {
@@ -50,7 +43,7 @@ void report_calibration(const Context& context, Results& results) {
   constexpr double two_cycles = 3.4;
   const RunRecord run = runs.finished("dtmb5415_decay_from_4_degrees", example, c, context.threads,
                                       [](double time, int) { return time > two_cycles; });
-  const analysis::Decay decay = decay_of_roll(run);
+  const analysis::Decay decay = run.roll_decay();
   const double period = 0.5 * (cycle(decay, 1).period + cycle(decay, 2).period);
   results.expect_near("period_from_4_deg", period, "s", measured_period, 0.01 * measured_period);
 }

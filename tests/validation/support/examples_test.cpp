@@ -37,8 +37,8 @@ TEST_P(Examples, TellTheirSizeInTheTitle) {
   EXPECT_EQ(title.find("intact") != std::string::npos, name.find("_intact_") != std::string::npos) << title;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Examples, testing::ValuesIn(examples()), [](const auto& info) {
-  const std::string& name = info.param;
+INSTANTIATE_TEST_SUITE_P(All, Examples, testing::ValuesIn(examples()), [](const auto& example) {
+  const std::string& name = example.param;
   return name.substr(0, name.find('.'));
 });
 

@@ -18,7 +18,7 @@ constexpr const char* example = "dtmb5415_ship_intact_decay_desk.yaml";
 RunRecord decay(const std::string& digest) {
   RunRecord r;
   r.digest = digest;
-  r.version = "1";
+  r.version = std::string("1");
   r.t = {0, 0.0125};
   r.roll = {0.342, 0.3410000049};
   r.heave = {0, -1e-3};

@@ -114,6 +114,12 @@ double RunRecord::mapping_cpu_s() const {
   return sum;
 }
 
+analysis::Decay RunRecord::roll_decay() const {
+  std::vector<double> angle;
+  for (const double r : roll) angle.push_back(r / degree);
+  return analysis::analyse_decay({t, angle});
+}
+
 Record RunRecord::between(const std::vector<double>& signal, double from, double to) const {
   Record out;
   for (std::size_t i = 0; i < t.size(); ++i)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/analysis/decay.hpp"
 #include "core/sim/case.hpp"
 #include "tests/validation/support/signal.hpp"
 
@@ -33,6 +34,8 @@ struct RunRecord {
   Record between(const std::vector<double>& signal, double from, double to) const;
   /// First harmonic of the wave's period [s] in a signal over the last three periods until `end`.
   double amplitude(const std::vector<double>& signal, double end, double period) const;
+  /// Free decay of the roll, angles in degrees.
+  analysis::Decay roll_decay() const;
   /// When the rule of a stage that began at `start` first held for roll and heave, over periods of `period` [s];
   /// its largest number of periods does not count. Infinite if it never did.
   double converged_at(double start, const sim::EndRule& rule, double period) const;

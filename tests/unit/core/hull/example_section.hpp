@@ -20,7 +20,7 @@ inline SectionSpec barge() {
 inline SectionSpec damaged_midship() {
   SectionSpec spec;
   spec.shape = SectionSpec::Shape::offsets;
-  spec.offsets_file = std::string(SEAWAY_EXAMPLES) + "/dtmb5415_offsets.csv";
+  spec.offsets_file = SEAWAY_EXAMPLES "/dtmb5415_offsets.csv";
   spec.station = 71.0;
   spec.scale = 51.0;
   spec.extend_to = 0.30;

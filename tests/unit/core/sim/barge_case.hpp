@@ -78,6 +78,7 @@ class Keeper : public RunObserver {
     samples.push_back(s);
     if (stop_after_ > 0 && static_cast<int>(samples.size()) >= stop_after_) stop.request_stop();
   }
+  void on_progress(const Progress& p) override { progress = p; }
   void on_stage_finished(const StageResult& r) override { finished.push_back(r); }
   void on_checkpoint(const std::string& path, std::int64_t sequence, double) override {
     checkpoints.emplace_back(path, sequence);
@@ -103,6 +104,7 @@ class Keeper : public RunObserver {
   std::vector<StageInfo> started;
   std::vector<Sample> samples;
   std::vector<StageResult> finished;
+  Progress progress;  ///< the latest
   std::vector<std::pair<std::string, std::int64_t>> checkpoints;
   std::vector<std::string> artifacts;
   std::vector<std::pair<std::string, std::string>> events;

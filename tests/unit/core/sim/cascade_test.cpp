@@ -271,6 +271,21 @@ TEST(Cascade, HullInCalmWaterIsReleasedWhenTheWaterIsStill) {
   EXPECT_NEAR(k.samples.back().values[heave], 0, 1e-3);
 }
 
+TEST(Cascade, ARunThatEndsByItsRuleIsWhollyDone) {
+  const TempFolder folder;
+  Case c = barge(0.025);
+  c.body.free = {Dof::roll};
+  c.body.angles = {10 * degree, 0, 0};
+  c.stages[0].end.kind = EndRule::Kind::converged;
+  c.stages[0].end.tolerance = 1;  // as soon as there are enough periods to tell
+  c.stages[0].end.min_periods = 1;
+  Keeper k;
+  EXPECT_EQ(run(c, folder.path(), k).reason, StopReason::finished);
+  EXPECT_LT(k.samples.back().time, 5 * 0.93) << "sooner than the six periods that are expected";
+  EXPECT_EQ(k.progress.fraction, 1);
+  EXPECT_EQ(k.progress.remaining_s, 0);
+}
+
 TEST(Cascade, HullInWavesIsReleasedByItsLoadsOrAfterTheLongestWait) {
   const TempFolder folder;
   Case c = barge(0.00625);
