@@ -359,14 +359,12 @@ void CascadeRun<Dim>::report_progress(bool force) {
   progress.held = model_->hull && !simulation_->body().released;
   double done = 0, total = 0;
   for (int s = 0; s < progress.stage_count; ++s) {
-    const double duration = expected_duration(s);
     const auto cells = static_cast<double>(stage_cells_[static_cast<std::size_t>(s)]);
+    double duration = expected_duration(s);
     double elapsed = s < stage_.index ? duration : 0;
     if (s == stage_.index) {
       elapsed = simulation_->time() - stage_.start_time;
-      total += cells * (stage_.finished ? elapsed : std::max(duration, elapsed * 1.05));
-      done += cells * elapsed;
-      continue;
+      duration = stage_.finished ? elapsed : std::max(duration, elapsed * 1.05);
     }
     total += cells * duration;
     done += cells * elapsed;

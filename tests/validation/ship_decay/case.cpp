@@ -1,6 +1,5 @@
 // [dtmb5415_decay_intact], [dtmb5415_decay_damaged] Free roll of the DTMB 5415 against the towing tank; see README.md.
 #include "core/base/constants.hpp"
-#include "core/base/error.hpp"
 #include "tests/validation/cases.hpp"
 #include "tests/validation/support/kept_runs.hpp"
 #include "tests/validation/support/tank_run.hpp"
@@ -18,13 +17,6 @@ analysis::Decay decay_of(const std::string& name, const std::string& example, co
   results.report("cells", static_cast<double>(run.stages.back().cells), "1");
   results.report("cpu_s_per_s", run.total_cpu_s / run.end_time(), "1");
   return run.roll_decay();
-}
-
-const analysis::DecayCycle& cycle(const analysis::Decay& decay, std::size_t number) {
-  if (decay.cycles.size() < number)
-    fail(ErrorCode::failed_precondition, "the run has {} cycles of roll, asked is cycle {}; make it longer",
-         decay.cycles.size(), number);
-  return decay.cycles[number - 1];
 }
 
 void report_peaks(const analysis::Decay& decay, Results& results) {

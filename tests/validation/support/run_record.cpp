@@ -120,6 +120,13 @@ analysis::Decay RunRecord::roll_decay() const {
   return analysis::analyse_decay({t, angle});
 }
 
+const analysis::DecayCycle& cycle(const analysis::Decay& decay, std::size_t number) {
+  if (decay.cycles.size() < number)
+    fail(ErrorCode::failed_precondition, "the run has {} cycles of roll, asked is cycle {}; make it longer",
+         decay.cycles.size(), number);
+  return decay.cycles[number - 1];
+}
+
 Record RunRecord::between(const std::vector<double>& signal, double from, double to) const {
   Record out;
   for (std::size_t i = 0; i < t.size(); ++i)

@@ -41,6 +41,9 @@ struct RunRecord {
   double converged_at(double start, const sim::EndRule& rule, double period) const;
 };
 
+/// Cycle `number`, from 1. Throws Error(failed_precondition) if the run was too short for it.
+const analysis::DecayCycle& cycle(const analysis::Decay& decay, std::size_t number);
+
 /// Runs the case in `folder` until it ends or `enough(time, stage)` says so. If a run of the same `digest` was cut
 /// there, it goes on from its last checkpoint; CPU times are sums of all attempts up to the checkpoints.
 /// Throws Error(diverged) when it does.
