@@ -111,4 +111,13 @@ constexpr IVec<Dim> faces_upper(int axis) {
   return v;
 }
 
+/// Calls f(offset) for a block's faces of `axis` on its lower (side 0) or upper (1) side.
+template <int Dim, class F>
+inline void for_side_faces(int axis, int side, F&& f) {
+  IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
+  lower[axis] = side == 0 ? 0 : BlockShape<Dim>::n;
+  upper[axis] = lower[axis] + 1;
+  for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) { f(offset<Dim>(i, face_strides<Dim>(axis))); });
+}
+
 }  // namespace seaway::field

@@ -206,7 +206,7 @@ void mirror(const Block<Dim>& block, int layers, int face_axis, const Boundaries
   constexpr int n = BlockShape<Dim>::n;
   for (int a = 0; a < Dim; ++a) {
     for (int side = 0; side < 2; ++side) {
-      if (block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))] != no_block) continue;
+      if (block.across(a, side) != no_block) continue;
       IVec<Dim> lower = filled<Dim>(-layers), upper = filled<Dim>(n + layers);
       if (face_axis >= 0) ++upper[face_axis];
       lower[a] = 0;

@@ -72,14 +72,9 @@ void Advection<Dim>::water_fluxes(const Scope& scope, const FlowState<Dim>& stat
     IVec<Dim> lower = filled<Dim>(0), upper = faces_upper<Dim>(axis);
     for (int side = 0; side < 2; ++side) {
       if (!scope.is_closed(b, axis, side)) continue;
-      IVec<Dim> first = filled<Dim>(0), last = faces_upper<Dim>(axis);
-      (side == 0 ? last[axis] : first[axis]) = side == 0 ? 1 : n;
       (side == 0 ? lower[axis] : upper[axis]) = side == 0 ? 1 : n;
       const double* whole = recorded_.block(axis, b);
-      for_box<Dim>(first, last, [&](const IVec<Dim>& i) {
-        const int o = offset<Dim>(i, fs);
-        g[o] = scope.share * whole[o];
-      });
+      field::for_side_faces<Dim>(axis, side, [&](int o) { g[o] = scope.share * whole[o]; });
     }
     for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
       const int o = offset<Dim>(i, fs);
@@ -93,7 +88,7 @@ void Advection<Dim>::water_fluxes(const Scope& scope, const FlowState<Dim>& stat
         return;
       }
       const int side = donor[axis] < 0 ? 0 : 1;
-      const int nb = block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
+      const int nb = block.across(axis, side);
       if (nb == mesh::no_block) {  // inflow through the tank's side: as the cell inside
         IVec<Dim> inside = donor;
         inside[axis] += side == 0 ? 1 : -1;
@@ -106,7 +101,7 @@ void Advection<Dim>::water_fluxes(const Scope& scope, const FlowState<Dim>& stat
         g[o] = h * (mixed ? swept_water<Dim>(planes_.plane(nb, cell), vof, axis, c) : vof * c);
       } else {  // coarser: the child cell that is not there, cut by the coarse plane
         const auto& parent = forest_.block(block.parent);
-        const int coarse = parent.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
+        const int coarse = parent.across(axis, side);
         IVec<Dim> at{};
         int child = 0;
         for (int a = 0; a < Dim; ++a) {
@@ -248,14 +243,11 @@ void Advection<Dim>::update_momentum(const Scope& scope, const FlowState<Dim>& s
       });
       // Faces on the tank's fixed sides keep their value.
       for (int side = 0; side < 2; ++side) {
-        if (block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))] != mesh::no_block ||
+        if (block.across(a, side) != mesh::no_block ||
             boundaries_.kind[static_cast<std::size_t>(a)][static_cast<std::size_t>(side)] != BoundaryKind::fixed)
           continue;
-        IVec<Dim> lower = filled<Dim>(0), top = cells_upper<Dim>();
-        lower[a] = side == 0 ? 0 : BlockShape<Dim>::n;
-        top[a] = lower[a] + 1;
         const double* u = state.u.block(a, b);
-        for_box<Dim>(lower, top, [&](const IVec<Dim>& i) { out[offset<Dim>(i, fs)] = u[offset<Dim>(i, fs)]; });
+        field::for_side_faces<Dim>(a, side, [&](int o) { out[o] = u[o]; });
       }
     }
   });

@@ -97,8 +97,7 @@ int HullWindow<Dim>::tile_of(const IVec<Dim>& cell) const {
 template <int Dim>
 bool HullWindow<Dim>::at_tank_side(const Tile& tile, int axis, int side) const {
   const auto& block = forest_.block(tile.block);
-  return through_sides_ &&
-         block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))] == mesh::no_block;
+  return through_sides_ && block.across(axis, side) == mesh::no_block;
 }
 
 template <int Dim>

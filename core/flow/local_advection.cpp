@@ -39,15 +39,6 @@ void copy_leaves(const Forest<Dim>& forest, const std::vector<int>& leaves, cons
   });
 }
 
-/// f(offset) for a leaf's faces on a side.
-template <int Dim, class F>
-void for_side_faces(int axis, int side, F&& f) {
-  IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
-  lower[axis] = side == 0 ? 0 : BlockShape<Dim>::n;
-  upper[axis] = lower[axis] + 1;
-  for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) { f(offset<Dim>(i, face_strides<Dim>(axis))); });
-}
-
 /// f(offset) for a leaf's faces of an axis that do not lie on a cut side of the part.
 template <int Dim, class F>
 void for_uncut_faces(const mesh::ForestPart<Dim>& part, int axis, int b, F&& f) {
@@ -131,7 +122,7 @@ void Advection<Dim>::approach_sides(FlowState<Dim>& state, int steps_left, const
   const auto approach = [&](int b, int axis, int side) {
     const double* to = held_u_.block(axis, b);
     double* u = state.u.block(axis, b);
-    for_side_faces<Dim>(axis, side, [&](int o) { u[o] = steps_left == 1 ? to[o] : u[o] + (to[o] - u[o]) / steps_left; });
+    field::for_side_faces<Dim>(axis, side, [&](int o) { u[o] = steps_left == 1 ? to[o] : u[o] + (to[o] - u[o]) / steps_left; });
   };
   mesh::for_each(region.leaves, forest_.threads(), [&](int b) {
     for (int a = 0; a < Dim; ++a)

@@ -56,6 +56,7 @@ class Projection {
   double divergence(const FlowState<Dim>& state, double dt) const;
 
  private:
+  void close_kept_faces(const std::vector<char>& free_cells);
   void remove_region_means();
   void right_side(const FlowState<Dim>& state, double dt, CellField<double, Dim>& b) const;
   void correct(FlowState<Dim>& state, const CellField<double, Dim>& p, double dt, bool mixture_too) const;

@@ -6,7 +6,6 @@
 
 namespace seaway::flow {
 
-using field::cells_upper;
 using field::face_strides;
 using field::faces_upper;
 using field::filled;
@@ -70,15 +69,9 @@ template <int Dim>
 void Viscosity<Dim>::keep_fixed_sides(const FlowState<Dim>& state, int a, int b) {
   const auto& block = forest_.block(b);
   for (int side = 0; side < 2; ++side) {
-    if (block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))] != mesh::no_block) continue;
+    if (block.across(a, side) != mesh::no_block) continue;
     if (boundaries_.kind[static_cast<std::size_t>(a)][static_cast<std::size_t>(side)] != BoundaryKind::fixed) continue;
-    IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
-    lower[a] = side == 0 ? 0 : BlockShape<Dim>::n;
-    upper[a] = lower[a] + 1;
-    field::for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
-      const int o = offset<Dim>(i, face_strides<Dim>(a));
-      u_new_.block(a, b)[o] = state.u.block(a, b)[o];
-    });
+    field::for_side_faces<Dim>(a, side, [&](int o) { u_new_.block(a, b)[o] = state.u.block(a, b)[o]; });
   }
 }
 

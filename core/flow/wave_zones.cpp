@@ -111,8 +111,7 @@ void WaveZones<Dim>::relax_velocity(FlowState<Dim>& state, double t, double dt) 
       for_box<Dim>(filled<Dim>(0), upper, [&](const IVec<Dim>& foot) {
         const Vec<Dim> x = block.face_centre(foot, a);
         const int side = foot[a] == 0 ? 0 : 1;
-        const bool on_end = has_zones(a) && (foot[a] == 0 || foot[a] == n) &&
-                            block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))] == mesh::no_block;
+        const bool on_end = has_zones(a) && (foot[a] == 0 || foot[a] == n) && block.across(a, side) == mesh::no_block;
         const Pull pull = pull_at(x);
         if (pull.rate <= 0 && !on_end) return;
         const bool wave = on_end ? drives(a, side) : pull.to_wave;

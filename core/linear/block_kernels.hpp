@@ -27,7 +27,7 @@ template <int Dim>
 CoarseSide<Dim> coarse_side(const Forest<Dim>& forest, const mesh::Block<Dim>& fine, int axis, int side) {
   const mesh::Block<Dim>& parent = forest.block(fine.parent);
   CoarseSide<Dim> out;
-  out.block = parent.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
+  out.block = parent.across(axis, side);
   for (int a = 0; a < Dim; ++a) out.base[a] = (fine.coord[a] & 1) * BlockShape<Dim>::n / 2;
   out.base[axis] = side == 0 ? BlockShape<Dim>::n - 1 : 0;
   return out;
@@ -64,7 +64,7 @@ inline void load_ghosts(const Forest<Dim>& forest, int b, CoarseGhost coarse, Va
   const mesh::Block<Dim>& block = forest.block(b);
   for (int axis = 0; axis < Dim; ++axis) {
     for (int side = 0; side < 2; ++side) {
-      const int nb = block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
+      const int nb = block.across(axis, side);
       IVec<Dim> lower, upper;
       side_box<Dim>(axis, side, lower, upper);
       const int step = ScratchShape<Dim>::stride(axis) * (side == 0 ? -1 : 1);

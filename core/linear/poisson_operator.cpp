@@ -116,7 +116,7 @@ bool PoissonOperator<Dim>::is_kept(int b, IVec<Dim> cell) const {
   for (int a = 0; a < Dim; ++a) {
     if (cell[a] >= 0 && cell[a] < n) continue;
     const int side = cell[a] < 0 ? 0 : 1;
-    b = forest_.block(b).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))];
+    b = forest_.block(b).across(a, side);
     if (b < 0) return true;
     cell[a] += side == 0 ? n : -n;
   }
@@ -135,7 +135,7 @@ void PoissonOperator<Dim>::restrict_coefficients(int parent) {
       const float* fine = c_.block(axis, from);
       bool gaps = has_gaps(from);
       for (int side = 0; side < 2; ++side) {
-        const int nb = forest_.block(from).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
+        const int nb = forest_.block(from).across(axis, side);
         gaps = gaps || (nb >= 0 && has_gaps(nb));
       }
       IVec<Dim> upper = filled<Dim>(half);
@@ -161,17 +161,13 @@ void PoissonOperator<Dim>::restrict_coefficients(int parent) {
     }
     // Next to a leaf of its own level the children's distances are 3/4 of the coarse cell, not 1/2.
     for (int side = 0; side < 2; ++side) {
-      const int nb = block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
+      const int nb = block.across(axis, side);
       if (nb < 0 || !forest_.block(nb).leaf) continue;
-      IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
-      lower[axis] = side == 0 ? 0 : BlockShape<Dim>::n;
-      upper[axis] = lower[axis] + 1;
-      const int shift = (BlockShape<Dim>::n - 2 * lower[axis]) * strides[axis];
+      const int shift = (side == 0 ? BlockShape<Dim>::n : -BlockShape<Dim>::n) * strides[axis];
       float* leaf = c_.block(axis, nb);
-      for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
-        float& c = coarse[offset<Dim>(i, strides)];
-        c *= 1.5f;
-        leaf[offset<Dim>(i, strides) + shift] = c;
+      field::for_side_faces<Dim>(axis, side, [&](int o) {
+        coarse[o] *= 1.5f;
+        leaf[o + shift] = coarse[o];
       });
     }
   }

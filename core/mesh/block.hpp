@@ -26,6 +26,14 @@ struct BlockShape {
 inline constexpr int no_block = -1;          ///< outside the tank
 inline constexpr int coarser_neighbour = -2; ///< the neighbour there is one level coarser
 
+/// Index into Block::neighbour of the face neighbour along `axis` (side 0: lower, 1: upper).
+template <int Dim>
+constexpr int face_neighbour(int axis, int side) {
+  const int power[3] = {1, 3, 9};
+  const int centre = Dim == 2 ? 4 : 13;
+  return centre + (side == 0 ? -power[axis] : power[axis]);
+}
+
 template <int Dim>
 struct Block {
   int level = 0;
@@ -52,14 +60,8 @@ struct Block {
     return x;
   }
   double cell_volume() const { return h.prod(); }
+  /// Face neighbour along `axis` (side 0: lower, 1: upper), as in `neighbour`.
+  int across(int axis, int side) const { return neighbour[static_cast<std::size_t>(face_neighbour<Dim>(axis, side))]; }
 };
-
-/// Index into Block::neighbour of the face neighbour along `axis` (side 0: lower, 1: upper).
-template <int Dim>
-constexpr int face_neighbour(int axis, int side) {
-  const int power[3] = {1, 3, 9};
-  const int centre = Dim == 2 ? 4 : 13;
-  return centre + (side == 0 ? -power[axis] : power[axis]);
-}
 
 }  // namespace seaway::mesh

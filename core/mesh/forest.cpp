@@ -167,7 +167,7 @@ void Forest<Dim>::list_interfaces() {
     const Block<Dim>& leaf = block(b);
     for (int axis = 0; axis < Dim; ++axis) {
       for (int side = 0; side < 2; ++side) {
-        const int nb = leaf.neighbour[static_cast<std::size_t>(face_neighbour<Dim>(axis, side))];
+        const int nb = leaf.across(axis, side);
         if (nb >= 0 && !block(nb).leaf) coarse_faces_.push_back({b, axis, side, nb});
       }
     }

@@ -57,16 +57,11 @@ PointSet<Dim> faces_of(const Forest<Dim>& forest, int axis, Wanted&& wanted,
   return set;
 }
 
-template <int Dim>
-int neighbour(const Forest<Dim>& forest, int b, int axis, int side) {
-  return forest.block(b).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))];
-}
-
 /// Whether the leaf's side is where each face is listed once: by the finer block, of two alike the
 /// upper.
 template <int Dim>
 bool lists_side(const Forest<Dim>& forest, int b, int axis, int side) {
-  const int nb = neighbour(forest, b, axis, side);
+  const int nb = forest.block(b).across(axis, side);
   if (nb < 0) return true;  // tank's side, or a coarser leaf
   return forest.block(nb).leaf && side == 0;
 }
@@ -75,9 +70,9 @@ bool lists_side(const Forest<Dim>& forest, int b, int axis, int side) {
 template <int Dim>
 bool side_is_free(const Forest<Dim>& to, const MeshPair<Dim>& pair, bool all, int b, int axis,
                   int side) {
-  int nb = neighbour(to, b, axis, side);
+  int nb = to.block(b).across(axis, side);
   if (nb == no_block) return false;
-  if (nb == mesh::coarser_neighbour) nb = neighbour(to, to.block(b).parent, axis, side);
+  if (nb == mesh::coarser_neighbour) nb = to.block(to.block(b).parent).across(axis, side);
   if (nb < 0 || !to.block(nb).leaf) return true;  // finer: restricted afterwards
   return all || pair.source(nb).origin != Origin::kept;
 }

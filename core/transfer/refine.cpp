@@ -34,8 +34,7 @@ struct Place {
     for (int a = 0; a < Dim; ++a) {
       base[a] = (to.block(b).coord[a] & 1) * n / 2;
       const auto outside = [&](int side) {
-        return coarse.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))] ==
-               mesh::no_block;
+        return coarse.across(a, side) == mesh::no_block;
       };
       first[a] = outside(0) ? 0 : -ScratchShape<Dim>::layers;
       const int end = n - 1 + (a == face_axis);
@@ -196,8 +195,7 @@ void unite_faces(const Forest<Dim>& to, const MeshPair<Dim>* pair, int axis,
   const IVec<Dim> strides = field::face_strides<Dim>(axis);
   // Each shared plane is handled by the block on its upper side alone.
   to.for_each_leaf([&](int b) {
-    const int nb =
-        to.block(b).neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, 0))];
+    const int nb = to.block(b).across(axis, 0);
     if (nb < 0 || !to.block(nb).leaf) return;
     const bool kept = pair && pair->source(b).origin == Origin::kept;
     const bool kept_below = pair && pair->source(nb).origin == Origin::kept;
