@@ -222,7 +222,7 @@ void CascadeRun<Dim>::restore(const std::string& path) {
   motion_monitor_ = CycleMonitor::load(reader.values("motion_monitor"));
   std::map<int, double> reservoirs;
   for (const json& entry : meta.at("reservoirs")) reservoirs[entry.at(0)] = entry.at(1);
-  simulation_ = std::make_unique<Simulation<Dim>>(model_, std::move(forest), context_);
+  make_simulation(std::move(forest), index);
   simulation_->restore(std::move(state), body, meta.at("time"), meta.at("step"), meta.at("dt"), meta.at("next_dt"),
                        meta.at("exchanged"), reservoirs);
   std::map<int, flow::YPlusRange> y_plus;

@@ -67,9 +67,14 @@ RunOutcome CascadeRun<Dim>::run() {
 }
 
 template <int Dim>
+void CascadeRun<Dim>::make_simulation(std::unique_ptr<Forest<Dim>> forest, int stage) {
+  simulation_ = std::make_unique<Simulation<Dim>>(model_, std::move(forest), context_);
+  simulation_->want_step(model_->stage_dt[static_cast<std::size_t>(stage)]);
+}
+
+template <int Dim>
 void CascadeRun<Dim>::start() {
-  simulation_ = std::make_unique<Simulation<Dim>>(
-      model_, make_forest(*model_, case_.stages[0].mesh, context_.threads), context_);
+  make_simulation(make_forest(*model_, case_.stages[0].mesh, context_.threads), 0);
   simulation_->initialise();
   initial_water_ = simulation_->water().visible;
   begin_stage(0);
@@ -100,7 +105,7 @@ template <int Dim>
 StageInfo CascadeRun<Dim>::info() const {
   const auto& forest = simulation_->forest();
   return {stage_.index, case_.stages[static_cast<std::size_t>(stage_.index)].name, forest.n_cells(),
-          forest.n_levels(), forest.finest_cell(), stage_.start_time, simulation_->dt()};
+          forest.n_levels(), forest.finest_cell(), stage_.start_time, model_->stage_dt[static_cast<std::size_t>(stage_.index)]};
 }
 
 template <int Dim>
@@ -298,7 +303,7 @@ void CascadeRun<Dim>::map_to_stage(int index) {
   const transfer::MapReport report = transfer::map_flow<Dim>(map_options(stage.mapping), old->forest(), *forest, from, to);
   std::vector<char> free_cells(report.origin.size());
   for (std::size_t i = 0; i < free_cells.size(); ++i) free_cells[i] = report.origin[i] != 0;
-  simulation_ = std::make_unique<Simulation<Dim>>(model_, std::move(forest), context_);
+  make_simulation(std::move(forest), index);
   flow::FlowState<Dim> state(simulation_->forest());
   state.vof = std::move(to.vof);
   state.p = std::move(to.p);
@@ -357,24 +362,24 @@ void CascadeRun<Dim>::report_progress(bool force) {
   progress.stage_count = static_cast<int>(case_.stages.size());
   progress.time = simulation_->time();
   progress.held = model_->hull && !simulation_->body().released;
-  double done = 0, total = 0;
+  double done = 0, total = 0;  // cell-steps
   for (int s = 0; s < progress.stage_count; ++s) {
-    const auto cells = static_cast<double>(stage_cells_[static_cast<std::size_t>(s)]);
+    const double cells_per_dt = static_cast<double>(stage_cells_[static_cast<std::size_t>(s)]) / model_->stage_dt[static_cast<std::size_t>(s)];
     double duration = expected_duration(s);
     double elapsed = s < stage_.index ? duration : 0;
     if (s == stage_.index) {
       elapsed = simulation_->time() - stage_.start_time;
       duration = stage_.finished ? elapsed : std::max(duration, elapsed * 1.05);
     }
-    total += cells * duration;
-    done += cells * elapsed;
+    total += cells_per_dt * duration;
+    done += cells_per_dt * elapsed;
   }
   progress.fraction = total > 0 ? std::min(1.0, done / total) : 0;
   const double wall = seconds_since(run_begun_);
   if (done == total)
     progress.remaining_s = 0;
   else if (work_done_ > 0 && wall > 1)
-    progress.remaining_s = (total - done) / simulation_->dt() * wall / work_done_;
+    progress.remaining_s = (total - done) * wall / work_done_;
   observer_.on_progress(progress);
 }
 

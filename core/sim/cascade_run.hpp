@@ -43,6 +43,7 @@ class CascadeRun {
   void discard_checkpoints() const;  ///< a run from the start: none of the old ones may outlive it
   std::vector<std::string> checkpoints() const;  ///< newest first
 
+  void make_simulation(std::unique_ptr<Forest<Dim>> forest, int stage);
   void begin_stage(int index);
   void map_to_stage(int index);
   std::optional<RunOutcome> run_stage();

@@ -197,6 +197,8 @@ struct Stage {
   MeshRule mesh;
   EndRule end;
   Mapping mapping;                   ///< how the flow came here from the stage before; unused in the first
+  double dt = 0;                     ///< [s]; 0: by steps_per_period
+  double steps_per_period = 0;       ///< as in TimeControl; dt too is 0: the step of the case
 };
 
 struct TimeControl {

@@ -172,7 +172,8 @@ void check_wave_resolution(CheckState& s) {
 }
 
 void check_time_step_known(CheckState& s) {
-  if (s.c.time.dt > 0 || s.wave_period > 0 || !s.c.body.prescribed.empty() || s.roll_period > 0 ||
+  const bool given = std::all_of(s.c.stages.begin(), s.c.stages.end(), [](const Stage& stage) { return stage.dt > 0; });
+  if (given || s.c.time.dt > 0 || s.wave_period > 0 || !s.c.body.prescribed.empty() || s.roll_period > 0 ||
       s.heave_period > 0)
     return;
   if (!s.report.ok()) return;  // the period is missing because of another error
@@ -200,6 +201,8 @@ void check_stages(CheckState& s) {
     if (!stage.name.empty() && !names.insert(stage.name).second)
       f.error(stage_field(i) + ".name", fmt::format("'{}' is used twice", stage.name),
               "give each stage its own name");
+    f.not_negative(stage_field(i) + ".time.dt_s", stage.dt);
+    if (stage.steps_per_period != 0) f.in_range(stage_field(i) + ".time.steps_per_period", stage.steps_per_period, 10, 1e5);
     check_mesh(s, i);
     check_end(s, i);
     check_mapping(s, i);

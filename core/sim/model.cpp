@@ -118,13 +118,18 @@ Model<Dim> make_model(const Case& c) {
   }
   check_probes_in_fluid(m);
   m.period = m.wave ? m.wave->period() : periods.longest;
-  m.dt = c.time.dt;
-  if (m.dt <= 0) {
-    double shortest = periods.shortest;
-    if (shortest <= 0) shortest = 2 * pi * std::sqrt(std::abs(c.tank.lower.z()) / c.fluids.gravity);
-    m.dt = shortest / c.time.steps_per_period;
+  double shortest = periods.shortest;
+  if (shortest <= 0) shortest = 2 * pi * std::sqrt(std::abs(c.tank.lower.z()) / c.fluids.gravity);
+  const auto step_of = [&](double given, double steps_per_period) {
+    if (given > 0) return given;
+    const double dt = shortest / steps_per_period;
     // Whole steps in a wave period, so that harmonic fits see every phase alike.
-    if (m.wave) m.dt = m.wave->period() / std::ceil(m.wave->period() / m.dt - 1e-9);
+    return m.wave ? m.wave->period() / std::ceil(m.wave->period() / dt - 1e-9) : dt;
+  };
+  m.dt = step_of(c.time.dt, c.time.steps_per_period);
+  for (const Stage& stage : c.stages) {
+    const bool own = stage.dt > 0 || stage.steps_per_period > 0;
+    m.stage_dt.push_back(own ? step_of(stage.dt, stage.steps_per_period) : m.dt);
   }
   return m;
 }

@@ -8,11 +8,7 @@
 
 namespace seaway::sim {
 
-using field::cells_upper;
-using field::face_strides;
 using field::filled;
-using field::for_box;
-using field::offset;
 using mesh::BlockShape;
 
 namespace {
@@ -29,13 +25,8 @@ double Simulation<Dim>::side_flux(int axis, const FaceField<double, Dim>& swept)
     const auto& block = forest_->block(b);
     const double area = block.cell_volume() / block.h[axis];
     for (int side = 0; side < 2; ++side) {
-      if (block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(axis, side))] != mesh::no_block) continue;
-      IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
-      lower[axis] = side == 0 ? 0 : BlockShape<Dim>::n;
-      upper[axis] = lower[axis] + 1;
-      for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
-        sum += (side == 0 ? area : -area) * swept.block(axis, b)[offset<Dim>(i, face_strides<Dim>(axis))];
-      });
+      if (block.across(axis, side) != mesh::no_block) continue;
+      field::for_side_faces<Dim>(axis, side, [&](int o) { sum += (side == 0 ? area : -area) * swept.block(axis, b)[o]; });
     }
   }
   return sum;
@@ -255,14 +246,20 @@ StepReport Simulation<Dim>::step() {
   return report;
 }
 
-/// The step stays what it is unless transport would need too many sub-steps; it changes by 10 % at most.
+template <int Dim>
+void Simulation<Dim>::want_step(double dt) {
+  wanted_dt_ = dt;
+  if (step_ == 0) dt_ = next_dt_ = dt;
+}
+
+/// The step stays what it is unless transport would need too many sub-steps; then it changes by 10 % at most. That of a
+/// stage before may be longer than what is wanted now.
 template <int Dim>
 void Simulation<Dim>::plan_next_step(const StepReport& report) {
   const double limit = model_->description.time.cfl * model_->description.time.max_substeps;
-  const double wanted = model_->dt;
-  next_dt_ = dt_;
-  if (report.courant > limit) next_dt_ = 0.9 * dt_;
-  else if (dt_ < wanted && report.courant * 1.25 < limit) next_dt_ = std::min(wanted, 1.05 * dt_);
+  next_dt_ = std::min(dt_, wanted_dt_);
+  if (report.courant > limit) next_dt_ = std::min(0.9 * dt_, wanted_dt_);
+  else if (dt_ < wanted_dt_ && report.courant * 1.25 < limit) next_dt_ = std::min(wanted_dt_, 1.05 * dt_);
 }
 
 template class Simulation<2>;

@@ -44,7 +44,8 @@ struct Model {
   motion::FreeDofs<Dim> free{};
   std::vector<motion::PrescribedMotion> prescribed;
   std::vector<std::string> compartments;
-  double dt = 0;                                        ///< wanted step
+  double dt = 0;                                        ///< step of the case [s]
+  std::vector<double> stage_dt;                         ///< wanted step of each stage [s]
   double period = 0;                                    ///< of the wave, or the longest natural one; 0: none
   double displacement = 0;                              ///< mass / rho_water [m^Dim]; 0 without a hull
 };
@@ -89,10 +90,14 @@ class Simulation {
   Simulation(std::shared_ptr<const Model<Dim>> model, std::unique_ptr<Forest<Dim>> forest,
              const RunContext& context);
 
+  /// The step to go to from now on [s], at first that of the case; a new simulation begins with it.
+  void want_step(double dt);
+
   /// Start of a run: exact wave (or calm water) everywhere, hull at its start pose.
   void initialise();
-  /// Start from fields mapped from another mesh at `time`; `free_cells` are those whose inner faces may be
-  /// changed to make w solenoidal. Returns dt |div w| before and after.
+  /// Start from fields mapped from another mesh at `time`, velocities at time + dt/2: the first step is that of the
+  /// run before. `free_cells` are those whose inner faces may be changed to make w solenoidal. Returns dt |div w|
+  /// before and after.
   std::pair<double, double> adopt(flow::FlowState<Dim>&& state, const BodyState<Dim>& body, double time,
                                   std::int64_t step, double dt, const std::map<int, double>& reservoirs,
                                   const std::vector<char>* free_cells);
@@ -178,7 +183,7 @@ class Simulation {
   BodyState<Dim> body_;
   motion::DofVector<Dim> load_ = motion::DofVector<Dim>::Zero();
   motion::DofVector<Dim> friction_ = motion::DofVector<Dim>::Zero();
-  double time_ = 0, dt_ = 0, next_dt_ = 0;
+  double time_ = 0, dt_ = 0, next_dt_ = 0, wanted_dt_ = 0;
   std::int64_t step_ = 0, sub_step_ = 0;
   double exchanged_ = 0;
   std::vector<double> window_vof_, window_advected_;

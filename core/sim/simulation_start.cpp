@@ -64,7 +64,7 @@ Simulation<Dim>::Simulation(std::shared_ptr<const Model<Dim>> model, std::unique
   }
   if (mask_ && model_->wall_model != flow::WallModel::slip)
     walls_ = std::make_unique<flow::HullWalls<Dim>>(model_->wall_model, model_->fluids);
-  dt_ = next_dt_ = model_->dt;
+  want_step(model_->dt);
   body_.pose = body_.half_pose = model_->start_pose;
   body_.released = c.body.release == Body::Release::at_start;
   advection_.set_flux_visitor([this](int axis, const FaceField<double, Dim>& swept) {
@@ -119,14 +119,9 @@ void Simulation<Dim>::initialise() {
       // Walls stay closed; driven ends are set by the zones.
       for (int a = 0; a < Dim; ++a) {
         for (int side = 0; side < 2; ++side) {
-          if (block.neighbour[static_cast<std::size_t>(mesh::face_neighbour<Dim>(a, side))] != mesh::no_block) continue;
+          if (block.across(a, side) != mesh::no_block) continue;
           if (model_->boundaries.kind[static_cast<std::size_t>(a)][static_cast<std::size_t>(side)] == field::BoundaryKind::open) continue;
-          IVec<Dim> lower = filled<Dim>(0), upper = cells_upper<Dim>();
-          lower[a] = side == 0 ? 0 : BlockShape<Dim>::n;
-          upper[a] = lower[a] + 1;
-          for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
-            state_.u.block(a, b)[offset<Dim>(i, face_strides<Dim>(a))] = 0;
-          });
+          field::for_side_faces<Dim>(a, side, [&](int o) { state_.u.block(a, b)[o] = 0; });
         }
       }
     });
@@ -166,7 +161,7 @@ std::pair<double, double> Simulation<Dim>::adopt(flow::FlowState<Dim>&& state, c
   time_ = time;
   step_ = step;
   sub_step_ = step;
-  dt_ = next_dt_ = std::min(dt, dt_);
+  dt_ = next_dt_ = dt;
   if (mask_) mask_->update(body_.pose, body_.half_pose);
   restrict_state();
   extend_vof_and_settle(dt_, true);

@@ -134,6 +134,10 @@ void put_body(const sim::Body& b, int dim, v1::Body& m) {
 
 void put_stage(const sim::Stage& s, bool first, int dim, v1::Stage& m) {
   m.set_name(s.name);
+  if (s.dt > 0)
+    m.mutable_time()->set_dt_s(s.dt);
+  else if (s.steps_per_period > 0)
+    m.mutable_time()->set_steps_per_period(s.steps_per_period);
   v1::MeshRule& mesh = *m.mutable_mesh();
   if (s.mesh.hull_cell > 0) mesh.set_hull_cell_m(s.mesh.hull_cell);
   if (s.mesh.hull_margin > 0) mesh.set_hull_margin_m(s.mesh.hull_margin);

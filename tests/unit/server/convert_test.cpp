@@ -82,6 +82,21 @@ TEST(ConvertCase, TurbulenceAndNoSlipSidesGoThereAndBack) {
   EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(full, to_proto(to_core(full))));
 }
 
+TEST(ConvertCase, StepsOfStagesGoThereAndBack) {
+  v1::Case m = small();
+  m.mutable_cascade()->mutable_stages(0)->mutable_time()->set_steps_per_period(60);
+  m.mutable_cascade()->mutable_stages(1)->mutable_time()->set_dt_s(0.005);
+  const sim::Case c = to_core(m);
+  EXPECT_EQ(c.stages[0].steps_per_period, 60);
+  EXPECT_EQ(c.stages[1].dt, 0.005);
+  EXPECT_EQ(c.stages[2].dt, 0);
+  EXPECT_EQ(c.stages[2].steps_per_period, 0);
+  const v1::Case full = to_proto(c);
+  EXPECT_EQ(full.cascade().stages(0).time().steps_per_period(), 60);
+  EXPECT_EQ(full.cascade().stages(1).time().dt_s(), 0.005);
+  EXPECT_FALSE(full.cascade().stages(2).has_time());
+}
+
 struct Mistake {
   const char* field;
   void (*make)(v1::Case&);
@@ -145,6 +160,15 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"body.release.converged.max_periods",
                 [](v1::Case& m) { m.mutable_body()->mutable_release()->mutable_converged()->set_max_periods(1); }},
         Mistake{"time.steps_per_period", [](v1::Case& m) { m.mutable_time()->set_steps_per_period(100); }},
+        Mistake{"cascade.stages[1].time.dt_s",
+                [](v1::Case& m) { m.mutable_cascade()->mutable_stages(1)->mutable_time()->set_dt_s(-0.01); }},
+        Mistake{"cascade.stages[1].time.steps_per_period",
+                [](v1::Case& m) { m.mutable_cascade()->mutable_stages(1)->mutable_time()->set_steps_per_period(5); }},
+        Mistake{"cascade.stages[1].time.steps_per_period",
+                [](v1::Case& m) {
+                  m.mutable_cascade()->mutable_stages(1)->mutable_time()->set_dt_s(0.01);
+                  m.mutable_cascade()->mutable_stages(1)->mutable_time()->set_steps_per_period(60);
+                }},
         Mistake{"cascade.stages", [](v1::Case& m) { m.clear_cascade(); }},
         Mistake{"cascade.stages[1].end", [](v1::Case& m) { m.mutable_cascade()->mutable_stages(1)->clear_end(); }},
         Mistake{"cascade.stages[0].mapping", [](v1::Case& m) { m.mutable_cascade()->mutable_stages(0)->mutable_mapping(); }},

@@ -99,6 +99,61 @@ TEST(Cascade, ResumedRunContinuesToTheBitFromEitherStage) {
   }
 }
 
+/// two_stages with longer steps in the first.
+Case two_steps() {
+  Case c = two_stages();
+  c.stages[0].dt = 0.012;
+  return c;
+}
+
+TEST(Cascade, AStageTakesItsOwnStepFromItsSecondStepOn) {
+  const TempFolder folder;
+  Keeper k;
+  EXPECT_EQ(run(two_steps(), folder.path(), k).reason, StopReason::finished);
+  ASSERT_EQ(k.started.size(), 2u);
+  EXPECT_EQ(k.started[0].dt, 0.012);
+  EXPECT_EQ(k.started[1].dt, 0.008);
+  double before = 0;
+  for (const Sample& s : k.samples) {  // velocities are half a long step ahead when the second stage begins
+    EXPECT_NEAR(s.time - before, s.sequence <= 11 ? 0.012 : 0.008, 1e-12) << s.sequence;
+    before = s.time;
+  }
+}
+
+TEST(Cascade, AResumedRunKeepsTheStepsOfItsStages) {
+  const TempFolder whole_folder;
+  Keeper whole;
+  EXPECT_EQ(run(two_steps(), whole_folder.path(), whole).reason, StopReason::finished);
+  for (const int stop_after : {7, 10, 11}) {
+    const TempFolder folder;
+    Keeper first(stop_after), second;
+    EXPECT_EQ(run(two_steps(), folder.path(), first).reason, StopReason::cancelled);
+    EXPECT_EQ(run(two_steps(), folder.path(), second).reason, StopReason::finished);
+    expect_history(joined(first, second), whole.samples);
+  }
+}
+
+/// Roll of the freed barge after 0.24 s with steps of its two stages, on one mesh.
+double roll_after(double first_dt, double second_dt) {
+  Case c = two_stages();
+  c.body.release = Body::Release::at_start;
+  c.stages[1].mesh = c.stages[0].mesh;
+  c.stages[0].end.duration = 0.096;
+  c.stages[1].end.duration = 0.144;
+  c.stages[0].dt = first_dt;
+  c.stages[1].dt = second_dt;
+  const TempFolder folder;
+  Keeper k;
+  EXPECT_EQ(run(c, folder.path(), k).reason, StopReason::finished);
+  EXPECT_NEAR(k.samples.back().time, 0.24, 1e-9);
+  return k.samples.back().values[k.channel("roll")] / degree;
+}
+
+TEST(Cascade, AnotherStepLeavesNoKickInTheMotion) {
+  const double steady = roll_after(0.008, 0.008), halved = roll_after(0.016, 0.008), fine = roll_after(0.004, 0.004);
+  EXPECT_LT(std::abs(halved - fine), 2 * std::abs(steady - fine) + 0.01) << steady << ' ' << halved << ' ' << fine;
+}
+
 TEST(Cascade, ResumeAtAStageEndMapsOnceAndGoesOn) {
   const TempFolder folder;
   Keeper first(15), second, third;

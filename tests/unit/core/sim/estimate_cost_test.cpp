@@ -22,6 +22,20 @@ void expect_cells_of_the_mesh(const Case& c) {
 
 TEST(EstimateCost, CountsTheCellsOfTheExample) { expect_cells_of_the_mesh<2>(damaged_section_in_waves()); }
 
+TEST(EstimateCost, TakesTheStepsOfEachStage) {
+  Case c = damaged_section_in_waves();
+  for (Stage& stage : c.stages) stage.dt = stage.steps_per_period = 0;
+  const CaseReport alike = check_case(c);
+  c.stages[0].steps_per_period = 0.5 * c.time.steps_per_period;
+  c.stages[1].dt = 0.25 * alike.stages[1].dt;
+  const CaseReport own = check_case(c);
+  ASSERT_TRUE(own.ok());
+  EXPECT_NEAR(own.stages[0].dt, 2 * alike.stages[0].dt, 1e-12);
+  EXPECT_NEAR(own.stages[0].cpu_s, 0.5 * alike.stages[0].cpu_s, 0.01 * alike.stages[0].cpu_s);
+  EXPECT_NEAR(own.stages[1].cpu_s, 4 * alike.stages[1].cpu_s, 0.01 * alike.stages[1].cpu_s);
+  EXPECT_EQ(own.stages[2].cpu_s, alike.stages[2].cpu_s);
+}
+
 // Fine cells at the hull inside coarse ones: most blocks are there for the balance alone.
 TEST(EstimateCost, CountsTheCellsOfABoxInThreeDimensions) {
   Case c;
