@@ -11,6 +11,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 
 #include "core/base/vec.hpp"
 
@@ -18,6 +19,8 @@ namespace seaway::motion {
 
 /// Order of the six motions; a section has sway, heave and roll.
 enum class Dof { surge = 0, sway, heave, roll, pitch, yaw };
+inline constexpr std::array<const char*, 6> dof_names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
+constexpr const char* to_string(Dof dof) { return dof_names.at(static_cast<std::size_t>(dof)); }
 
 template <int Dim>
 inline constexpr int n_dof = Dim == 2 ? 3 : 6;

@@ -5,27 +5,6 @@
 #include "core/base/error.hpp"
 
 namespace seaway::motion {
-namespace {
-
-const char* name(Dof dof) {
-  switch (dof) {
-    case Dof::surge:
-      return "surge";
-    case Dof::sway:
-      return "sway";
-    case Dof::heave:
-      return "heave";
-    case Dof::roll:
-      return "roll";
-    case Dof::pitch:
-      return "pitch";
-    case Dof::yaw:
-      return "yaw";
-  }
-  return "an unknown motion";
-}
-
-}  // namespace
 
 template <int Dim>
 FreeDofs<Dim> free_dofs(std::span<const Dof> free) {
@@ -34,7 +13,7 @@ FreeDofs<Dim> free_dofs(std::span<const Dof> free) {
     const int i = dof_index<Dim>(dof);
     SEAWAY_CHECK(i >= 0,
                  "{} cannot be free in a two-dimensional case; allowed are sway, heave, roll",
-                 name(dof));
+                 to_string(dof));
     out[i] = true;
   }
   return out;

@@ -12,10 +12,11 @@
 
 #include "core/base/constants.hpp"
 #include "core/base/vec.hpp"
+#include "core/motion/pose.hpp"
 
 namespace seaway::sim {
 
-enum class Dof { surge = 0, sway, heave, roll, pitch, yaw };
+using motion::Dof;
 
 struct Fluids {
   double rho_water = 1000.0;  ///< [kg/m3]

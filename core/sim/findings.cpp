@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/waves/airy.hpp"
+
 namespace seaway::sim {
 
 void Findings::error(std::string field, std::string message, std::string hint) {
@@ -71,39 +73,12 @@ bool CheckState::is_free(Dof dof) const {
   return std::find(c.body.free.begin(), c.body.free.end(), dof) != c.body.free.end();
 }
 
-const char* to_string(Dof dof) {
-  switch (dof) {
-    case Dof::surge:
-      return "surge";
-    case Dof::sway:
-      return "sway";
-    case Dof::heave:
-      return "heave";
-    case Dof::roll:
-      return "roll";
-    case Dof::pitch:
-      return "pitch";
-    case Dof::yaw:
-      return "yaw";
-  }
-  return "unknown";
-}
-
 double linear_wave_length(double period, double depth, double gravity) {
-  const double omega2 = 4 * pi * pi / (period * period);
-  double kd = std::max(omega2 * depth / gravity, std::sqrt(omega2 * depth / gravity));
-  for (int i = 0; i < 50; ++i) {  // Newton for kd tanh(kd) = omega^2 d / g
-    const double t = std::tanh(kd);
-    const double step = (kd * t - omega2 * depth / gravity) / (t + kd * (1 - t * t));
-    kd -= step;
-    if (std::abs(step) < 1e-14 * kd) break;
-  }
-  return 2 * pi * depth / kd;
+  return 2 * pi / waves::linear_wave_number(2 * pi / period, depth, gravity);
 }
 
 double linear_wave_period(double length, double depth, double gravity) {
-  const double k = 2 * pi / length;
-  return 2 * pi / std::sqrt(gravity * k * std::tanh(k * depth));
+  return 2 * pi / waves::linear_omega(2 * pi / length, depth, gravity);
 }
 
 }  // namespace seaway::sim

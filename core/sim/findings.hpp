@@ -64,8 +64,6 @@ struct CheckState {
   bool has_hull() const { return c.hull.shape != Hull::Shape::none; }
 };
 
-const char* to_string(Dof dof);
-
 void check_fluids_and_tank(CheckState& s);       // check_tank.cpp
 void check_wave_and_zones(CheckState& s);        // check_wave.cpp
 void check_settings(CheckState& s);          // check_tank.cpp: time, numerics, intervals

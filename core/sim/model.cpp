@@ -83,7 +83,7 @@ Model<Dim> make_model(const Case& c) {
   Periods periods;
   if (m.wave) periods.add(m.wave->period());
   for (const auto& p : c.body.prescribed) {
-    m.prescribed.push_back({static_cast<motion::Dof>(p.dof), p.amplitude, p.period, p.ramp});
+    m.prescribed.push_back({p.dof, p.amplitude, p.period, p.ramp});
     periods.add(p.period);
   }
   NaturalPeriods natural;
@@ -109,9 +109,7 @@ Model<Dim> make_model(const Case& c) {
     m.body = motion::make_rigid_body<Dim>(c.body.mass, c.body.cog, c.body.gyradii);
     const Vec3& turn = c.body.angles;
     m.start_pose = motion::make_pose<Dim>(m.rest_cog + from_vec3<Dim>(c.body.offset), {turn.x(), turn.y(), turn.z()});
-    std::vector<motion::Dof> free;
-    for (const Dof dof : c.body.free) free.push_back(static_cast<motion::Dof>(dof));
-    m.free = motion::free_dofs<Dim>(std::span<const motion::Dof>(free));
+    m.free = motion::free_dofs<Dim>(std::span<const Dof>(c.body.free));
     for (const auto& compartment : c.hull.compartments) m.compartments.push_back(compartment.name);
     m.displacement = c.body.mass / c.fluids.rho_water;
     if (has_thin_walls(c)) m.walls = flow::Walls::thin;

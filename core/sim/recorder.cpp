@@ -5,14 +5,13 @@ namespace seaway::sim {
 template <int Dim>
 Recorder<Dim>::Recorder(const Model<Dim>& model) {
   const bool section = Dim == 2;
-  const char* names[6] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
   if (model.hull) {
     for (int dof = 0; dof < 6; ++dof) {
       const int i = motion::dof_index<Dim>(static_cast<motion::Dof>(dof));
       if (i < 0) continue;
       if (model.free[static_cast<std::size_t>(i)]) free_motions_.push_back(channels_.size());
       motions_.push_back(channels_.size());
-      channels_.push_back({names[dof], dof < 3 ? "m" : "rad"});
+      channels_.push_back({motion::dof_names[static_cast<std::size_t>(dof)], dof < 3 ? "m" : "rad"});
     }
     const char* loads[6] = {"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"};
     for (int dof = 0; dof < 6; ++dof) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <tuple>
@@ -12,6 +11,7 @@
 #include "core/analysis/harmonic.hpp"
 #include "core/base/constants.hpp"
 #include "core/base/error.hpp"
+#include "core/motion/pose.hpp"
 #include "core/sim/build_wave.hpp"
 #include "server/convert/case.hpp"
 #include "server/convert/checker.hpp"
@@ -19,8 +19,6 @@
 
 namespace seaway::reports {
 namespace {
-
-constexpr std::array<const char*, 6> motion_names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
 
 /// What the harmonic fit needs to know of the wave.
 struct WaveFacts {
@@ -79,7 +77,7 @@ void fill_motions(const Run& run, const sim::Case& c, const WaveFacts& w, int pe
   const double x = c.body.cog.x() + mean_of(run.history, "surge", w.omega, periods);
   const double y = c.body.cog.y() + mean_of(run.history, "sway", w.omega, periods);
   const double lead = lead_at(w, x, y);
-  for (const char* name : motion_names) {
+  for (const char* name : motion::dof_names) {
     const History::Channel* channel = run.history.find(name);
     if (channel == nullptr) continue;
     const Part part = last_stage(run.history, channel->values);

@@ -2,6 +2,7 @@
 // The methods of Reports and Sweeps.
 #include <set>
 
+#include "core/motion/pose.hpp"
 #include "server/convert/result.hpp"
 #include "server/jobs/submission.hpp"
 #include "server/reports/decay_report.hpp"
@@ -40,7 +41,7 @@ reports::Run load_run(const Backend& b, const store::Job& job, const std::set<st
   }
 }
 
-const std::set<std::string> motions{"surge", "sway", "heave", "roll", "pitch", "yaw"};
+const std::set<std::string> motions(motion::dof_names.begin(), motion::dof_names.end());
 
 store::Sweep find_sweep(const Backend& b, const std::string& name, const std::string& field) {
   const std::string uid = parse_sweep_name(name, field);

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/base/error.hpp"
+#include "server/store/bytes.hpp"
 
 namespace seaway::store {
 namespace {
@@ -18,19 +19,6 @@ struct Head {
   std::uint32_t magic, n, columns, reserved;
   std::int64_t first;
 };
-
-template <class T>
-void put(std::string& out, T value) {
-  out.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-template <class T>
-T get(std::string_view bytes, std::size_t& at) {
-  T value;
-  std::memcpy(&value, bytes.data() + at, sizeof value);
-  at += sizeof value;
-  return value;
-}
 
 }  // namespace
 

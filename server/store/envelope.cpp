@@ -2,9 +2,9 @@
 #include "server/store/envelope.hpp"
 
 #include <cmath>
-#include <cstring>
 
 #include "core/base/error.hpp"
+#include "server/store/bytes.hpp"
 #include "server/store/chunk.hpp"
 
 namespace seaway::store {
@@ -13,18 +13,6 @@ namespace {
 struct Head {
   std::uint32_t points, channels;
 };
-
-template <class T>
-void put(std::string& out, T value) {
-  out.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-template <class T>
-T get(std::string_view bytes, std::size_t& at) {
-  T value;
-  std::memcpy(&value, bytes.data() + at, sizeof value);
-  at += sizeof value;
-  return value;
-}
 
 }  // namespace
 

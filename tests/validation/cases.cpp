@@ -70,6 +70,8 @@ const std::vector<Case>& all_cases() {
        run_dtmb5415_damping, "ship_damping"},
       {"dtmb5415_beam_waves", Suite::ships, "the ship in the paper's beam waves, damaged and intact: roll and heave",
        run_dtmb5415_beam_waves, "ship_beam_waves"},
+      {"dtmb5415_rao", Suite::ships, "the ship in beam waves of seven periods, damaged and intact: where roll is largest",
+       run_dtmb5415_rao, "ship_rao"},
       {"cascade_section", Suite::full,
        "the example through three meshes against the finest alone: amplitudes, CPU time saved",
        run_cascade_section},

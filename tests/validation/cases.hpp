@@ -57,6 +57,7 @@ void run_dtmb5415_decay_intact(const Context& context, Results& results);
 void run_dtmb5415_decay_damaged(const Context& context, Results& results);
 void run_dtmb5415_damping(const Context& context, Results& results);
 void run_dtmb5415_beam_waves(const Context& context, Results& results);
+void run_dtmb5415_rao(const Context& context, Results& results);
 void run_cascade_section(const Context& context, Results& results);
 void run_viscous_wave(const Context& context, Results& results);
 void run_taylor_green(const Context& context, Results& results);
