@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -23,7 +24,7 @@ RunRecord decay(const std::string& digest) {
   r.roll = {0.342, 0.3410000049};
   r.heave = {0, -1e-3};
   r.cpu_s = {0, 2.5};
-  r.stages = {{"only", 1000, 1, 0, 0.0125, 2.5, 0, true}};
+  r.stages = {{"only", 1000, 1, 0, 0.0125, 2.5, 0, true, -2e-6}};
   r.total_cpu_s = 3;
   return r;
 }
@@ -43,7 +44,16 @@ TEST(KeptRuns, AFinishedRunOfTheExampleIsRead) {
   EXPECT_EQ(r.t, (std::vector<double>{0, 0.0125}));
   EXPECT_NEAR(r.roll[1], 0.3410000049, 1e-8);
   EXPECT_EQ(r.stages.front().cells, 1000);
+  EXPECT_EQ(r.stages.front().volume_drift, -2e-6);
   EXPECT_EQ(r.total_cpu_s, 3);
+}
+
+TEST(KeptRuns, ARecordFromBeforeTheDriftWasKeptHasNone) {
+  const testing::TempFolder folder;
+  RunRecord old = decay(digest_of_run("run"));
+  old.stages.front().volume_drift = std::nan("");
+  save(old, folder / "run.json");
+  EXPECT_TRUE(std::isnan(KeptRuns(folder.path(), "case").finished("run", example, {}, 1, {}).stages.front().volume_drift));
 }
 
 TEST(KeptRuns, ARunKeptWithTheProjectIsReadUnlessResultsAreAskedFor) {

@@ -48,7 +48,7 @@ class Keeper : public sim::RunObserver {
   }
   void on_stage_finished(const sim::StageResult& r) override {
     record_.stages.push_back({r.info.name, r.info.cells, r.steps, r.info.time, r.end_time, r.cpu_s,
-                              r.has_mapping ? r.mapping.cpu_s : 0, r.converged});
+                              r.has_mapping ? r.mapping.cpu_s : 0, r.converged, r.volume_drift});
   }
   void on_checkpoint(const std::string&, std::int64_t, double) override {
     record_.total_cpu_s = process_cpu_seconds() - cpu_before_;
@@ -85,6 +85,11 @@ class Keeper : public sim::RunObserver {
 std::vector<double> rounded(std::vector<double> values) {
   for (double& v : values) v = std::round(v * 1e8) / 1e8;
   return values;
+}
+
+double drift_of(const nlohmann::json& stage) {
+  const auto at = stage.find("volume_drift");
+  return at == stage.end() || at->is_null() ? std::nan("") : at->get<double>();
 }
 
 }  // namespace
@@ -161,7 +166,8 @@ void save(const RunRecord& r, const std::string& path) {
                       {"end_s", s.end},
                       {"cpu_s", s.cpu_s},
                       {"mapping_cpu_s", s.mapping_cpu_s},
-                      {"converged", s.converged}});
+                      {"converged", s.converged},
+                      {"volume_drift", s.volume_drift}});
   const nlohmann::json all{{"digest", r.digest},           {"version", r.version},
                            {"t_s", rounded(r.t)},          {"roll_rad", rounded(r.roll)},
                            {"heave_m", rounded(r.heave)},  {"cpu_s", rounded(r.cpu_s)},
@@ -185,7 +191,7 @@ bool load(const std::string& path, RunRecord& r) {
   r.stages.clear();
   for (const auto& s : all.at("stages"))
     r.stages.push_back({s.at("name"), s.at("cells"), s.at("steps"), s.at("start_s"), s.at("end_s"),
-                        s.at("cpu_s"), s.at("mapping_cpu_s"), s.at("converged")});
+                        s.at("cpu_s"), s.at("mapping_cpu_s"), s.at("converged"), drift_of(s)});
   return true;
 }
 

@@ -1,6 +1,7 @@
 // What is kept of one run: histories with the CPU time at each sample, and stages.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct StageRecord {
   double start = 0, end = 0;  ///< [s] of the run
   double cpu_s = 0, mapping_cpu_s = 0;
   bool converged = false;
+  double volume_drift = std::nan("");  ///< at its end, of the displacement; not a number in records from before it was kept
 };
 
 struct RunRecord {
