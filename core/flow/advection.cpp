@@ -1,5 +1,6 @@
 #include "core/flow/advection.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/field/restrict.hpp"
@@ -24,14 +25,16 @@ Advection<Dim>::Advection(const Forest<Dim>& forest, const FluidProperties& flui
       vof_new_(forest), vof_start_(forest), u_start_(forest), u_new_(forest) {}
 
 template <int Dim>
-std::vector<double> Advection<Dim>::courant_numbers(const FaceField<double, Dim>& w, double dt) const {
-  std::vector<double> out(static_cast<std::size_t>(forest_.n_leaves()));
+std::vector<LeafCourant<Dim>> Advection<Dim>::courant_numbers(const FaceField<double, Dim>& w, double dt) const {
+  constexpr int n = BlockShape<Dim>::n;
+  std::vector<LeafCourant<Dim>> out(static_cast<std::size_t>(forest_.n_leaves()));
   mesh::parallel_for(forest_.n_leaves(), forest_.threads(), [&](int leaf) {
     const int b = forest_.leaves()[static_cast<std::size_t>(leaf)];
     const auto& block = forest_.block(b);
-    double largest = 0, bad = 0;
+    LeafCourant<Dim>& courant = out[static_cast<std::size_t>(leaf)];
+    double along[n] = {};  // largest by place in a row
+    double bad = 0;
     for_rows<Dim>(filled<Dim>(0), cells_upper<Dim>(), [&](const IVec<Dim>& row) {
-      constexpr int n = BlockShape<Dim>::n;
       double sum[n] = {};
       for (int a = 0; a < Dim; ++a) {
         const IVec<Dim> s = face_strides<Dim>(a);
@@ -40,19 +43,30 @@ std::vector<double> Advection<Dim>::courant_numbers(const FaceField<double, Dim>
         for (int i = 0; i < n; ++i)
           sum[i] += factor * std::max(std::abs(lo[i]), std::abs(lo[i + s[a]]));
       }
+      double largest = 0;
       for (int i = 0; i < n; ++i) {
         largest = std::max(largest, sum[i]);
+        along[i] = std::max(along[i], sum[i]);
         bad += sum[i];
       }
+      for (int a = 1; a < Dim; ++a) {
+        if (row[a] < courant_margin) courant.at_side(a, 0) = std::max(courant.at_side(a, 0), largest);
+        if (row[a] >= n - courant_margin) courant.at_side(a, 1) = std::max(courant.at_side(a, 1), largest);
+      }
     });
-    out[static_cast<std::size_t>(leaf)] = std::isfinite(bad) ? largest : std::nan("");
+    for (int i = 0; i < n; ++i) {
+      courant.largest = std::max(courant.largest, along[i]);
+      if (i < courant_margin) courant.at_side(0, 0) = std::max(courant.at_side(0, 0), along[i]);
+      if (i >= n - courant_margin) courant.at_side(0, 1) = std::max(courant.at_side(0, 1), along[i]);
+    }
+    if (!std::isfinite(bad)) courant.largest = std::nan("");
   });
   return out;
 }
 
 template <int Dim>
 double Advection<Dim>::courant_number(const FaceField<double, Dim>& w, double dt) const {
-  return largest_courant(courant_numbers(w, dt));
+  return largest_courant<Dim>(courant_numbers(w, dt));
 }
 
 template <int Dim>
@@ -78,7 +92,7 @@ void Advection<Dim>::water_fluxes(const Scope& scope, const FlowState<Dim>& stat
     }
     for_box<Dim>(lower, upper, [&](const IVec<Dim>& i) {
       const int o = offset<Dim>(i, fs);
-      const double c = w[o] * dt / h;
+      const double c = std::clamp(w[o] * dt / h, -1.0, 1.0);  // beyond only in leaves that are advanced again
       IVec<Dim> donor = i;
       if (c > 0) --donor[axis];
       if (donor[axis] >= 0 && donor[axis] < n) {
@@ -265,12 +279,15 @@ void Advection<Dim>::start_from(const FlowState<Dim>& state) {
 }
 
 template <int Dim>
-void Advection<Dim>::sweep(const Scope& scope, const FlowState<Dim>& state, int axis, double dt) {
+void Advection<Dim>::sweep(const FlowState<Dim>& state, int axis, double dt, const mesh::ForestPart<Dim>* region) {
+  const Scope scope{forest_.leaves()};
   planes_.reconstruct(state.vof);
   water_fluxes(scope, state, axis, dt);
   update_vof(scope, state, axis, dt);
+  if (region) bound_region(*region);
   field::restrict_cells<double, Dim>(forest_, vof_new_);
   update_momentum(scope, state, axis, dt);
+  if (region) stop_region(state, *region);
   field::restrict_faces<double, Dim>(forest_, u_new_);
   for (auto& f : carried_new_)
     if (state.turbulent()) field::restrict_cells<double, Dim>(forest_, f);
@@ -291,7 +308,7 @@ void Advection<Dim>::advance(FlowState<Dim>& state, double dt, std::int64_t step
   start_from(state);
   for (int k = 0; k < Dim; ++k) {
     const int axis = static_cast<int>((k + step) % Dim);
-    sweep({forest_.leaves()}, state, axis, dt);
+    sweep(state, axis, dt);
     if (visitor_) visitor_(axis, swept_);
     take_new(state);
   }

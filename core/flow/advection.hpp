@@ -21,8 +21,8 @@ class Advection {
  public:
   Advection(const Forest<Dim>& forest, const FluidProperties& fluids, const Boundaries<Dim>& boundaries);
 
-  /// Largest sum_d |w_d| dt / h_d over the cells of each leaf, in the order of Forest::leaves; NaN where w is not finite.
-  std::vector<double> courant_numbers(const FaceField<double, Dim>& w, double dt) const;
+  /// Of each leaf, in the order of Forest::leaves.
+  std::vector<LeafCourant<Dim>> courant_numbers(const FaceField<double, Dim>& w, double dt) const;
   /// Over all cells.
   double courant_number(const FaceField<double, Dim>& w, double dt) const;
 
@@ -48,14 +48,13 @@ class Advection {
   InterfacePlanes<Dim>& planes() { return planes_; }
 
  private:
-  /// The leaves that a sweep advances: all of them, or those of a part, through whose cut sides goes what flows there or
-  /// (share > 0) that share of recorded_.
+  /// The leaves that a sweep advances: all of them, or those of a part, through whose cut sides goes a share of recorded_.
   struct Scope {
     const std::vector<int>& leaves;
     const mesh::ForestPart<Dim>* part = nullptr;
     double share = 0;
-    bool is_closed(int b, int axis, int side) const { return share > 0 && part->is_cut(b, axis, side); }
-    bool has_closed_sides(int b) const { return share > 0 && part->cut_sides[static_cast<std::size_t>(b)] != 0; }
+    bool is_closed(int b, int axis, int side) const { return part && part->is_cut(b, axis, side); }
+    bool has_closed_sides(int b) const { return part && part->cut_sides[static_cast<std::size_t>(b)] != 0; }
   };
   /// Wholly water or air, like all around it: nothing to reconstruct.
   bool is_pure(const Scope& scope, int b) const {
@@ -65,10 +64,13 @@ class Advection {
   void update_vof(const Scope& scope, const FlowState<Dim>& state, int axis, double dt);
   void update_momentum(const Scope& scope, const FlowState<Dim>& state, int axis, double dt);
   void start_from(const FlowState<Dim>& state);
-  void sweep(const Scope& scope, const FlowState<Dim>& state, int axis, double dt);
+  /// All leaves; those of a region that is to be advanced again are held (bound_region, stop_region).
+  void sweep(const FlowState<Dim>& state, int axis, double dt, const mesh::ForestPart<Dim>* region = nullptr);
   void take_new(FlowState<Dim>& state);
   // Local sub-steps (local_advection.cpp).
-  void advance_rest(FlowState<Dim>& state, double dt, std::int64_t step, const SubStepPlan<Dim>& plan);
+  void advance_around(FlowState<Dim>& state, double dt, std::int64_t step, const mesh::ForestPart<Dim>& region);
+  void bound_region(const mesh::ForestPart<Dim>& region);
+  void stop_region(const FlowState<Dim>& state, const mesh::ForestPart<Dim>& region);
   void sweep_region(FlowState<Dim>& state, int axis, double dt, const SubStepPlan<Dim>& plan);
   void approach_sides(FlowState<Dim>& state, int steps_left, const mesh::ForestPart<Dim>& region) const;
   void record(int axis, const mesh::ForestPart<Dim>& region);

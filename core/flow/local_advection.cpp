@@ -1,8 +1,9 @@
 // Advection with more sub-steps in a region than elsewhere (SubStepPlan).
 //
-// First the rest of the mesh takes the long sub-step; the fast leaves are left as they are, and what is wrong beside them
-// for that reason does not get through the ring of leaves around them. Then the region, ring included, starts again and takes
-// the short ones, with the rest as it was at the start around it and, through its sides, the water that the rest saw pass.
+// First the whole mesh takes the long sub-step. In the region (the fast leaves, and their neighbours where they are fast at the
+// common side) that is no more than an estimate, for what the leaves beside it see: velocities stay as they were, volume
+// fractions are kept within [0, 1]. Then the region starts again and takes the short ones, with the rest as it was at the start
+// around it and, through its sides, the water that the rest saw pass.
 #include <algorithm>
 #include <utility>
 
@@ -50,16 +51,38 @@ void for_uncut_faces(const mesh::ForestPart<Dim>& part, int axis, int b, F&& f) 
 
 }  // namespace
 
-/// All leaves but the fast ones, which keep what they have.
+/// Volume fractions that a long sweep found in the region, brought back to what a fraction can be.
 template <int Dim>
-void Advection<Dim>::advance_rest(FlowState<Dim>& state, double dt, std::int64_t step, const SubStepPlan<Dim>& plan) {
+void Advection<Dim>::bound_region(const mesh::ForestPart<Dim>& region) {
+  mesh::for_each(region.leaves, forest_.threads(), [&](int b) {
+    double* vof = vof_new_.block(b);
+    for (int i = 0; i < BlockShape<Dim>::cells; ++i) vof[i] = std::clamp(vof[i], 0.0, 1.0);
+  });
+}
+
+/// Velocities and what is carried in the region as before a long sweep, but for the velocities on its sides: what is near
+/// these is slow.
+template <int Dim>
+void Advection<Dim>::stop_region(const FlowState<Dim>& state, const mesh::ForestPart<Dim>& region) {
+  mesh::for_each(region.leaves, forest_.threads(), [&](int b) {
+    for (int a = 0; a < Dim; ++a) {
+      const double* from = state.u.block(a, b);
+      double* to = u_new_.block(a, b);
+      for_uncut_faces<Dim>(region, a, b, [&](int o) { to[o] = from[o]; });
+    }
+    if (!state.turbulent()) return;
+    copy_cells(state.tke, b, carried_new_[0]);
+    copy_cells(state.epsilon, b, carried_new_[1]);
+  });
+}
+
+/// The long sub-step of all leaves, true of those outside the region.
+template <int Dim>
+void Advection<Dim>::advance_around(FlowState<Dim>& state, double dt, std::int64_t step, const mesh::ForestPart<Dim>& region) {
   start_from(state);
   for (int k = 0; k < Dim; ++k) {
     const int axis = static_cast<int>((k + step) % Dim);
-    copy_leaves(forest_, plan.fast, state, vof_new_, u_new_, carried_new_);
-    // In leaves and parents; a coarse leaf beside a fast one keeps the fluxes it found itself.
-    std::fill(swept_.data(axis).begin(), swept_.data(axis).end(), plan.unknown_flux);
-    sweep({plan.rest.leaves, &plan.rest}, state, axis, dt);
+    sweep(state, axis, dt, &region);
     take_new(state);
   }
 }
@@ -164,7 +187,7 @@ std::vector<typename Advection<Dim>::Clip> Advection<Dim>::advance(FlowState<Dim
   const mesh::ForestPart<Dim>& region = plan.region;
   const FluxVisitor visitor = std::exchange(visitor_, nullptr);
   if (recorded_.data(0).empty()) recorded_ = FaceField<double, Dim>(forest_);
-  advance_rest(state, dt, step, plan);
+  advance_around(state, dt, step, region);
   std::swap(recorded_, swept_);
   hold(state);
   // What the region's ghosts see of the rest.
@@ -206,7 +229,9 @@ std::vector<typename Advection<Dim>::Clip> Advection<Dim>::advance(FlowState<Dim
 }
 
 #define SEAWAY_INSTANTIATE(D)                                                                                               \
-  template void Advection<D>::advance_rest(FlowState<D>&, double, std::int64_t, const SubStepPlan<D>&);                     \
+  template void Advection<D>::bound_region(const mesh::ForestPart<D>&);                                                     \
+  template void Advection<D>::stop_region(const FlowState<D>&, const mesh::ForestPart<D>&);                                 \
+  template void Advection<D>::advance_around(FlowState<D>&, double, std::int64_t, const mesh::ForestPart<D>&);              \
   template void Advection<D>::hold(FlowState<D>&);                                                                          \
   template void Advection<D>::record(int, const mesh::ForestPart<D>&);                                                      \
   template void Advection<D>::sweep_region(FlowState<D>&, int, double, const SubStepPlan<D>&);                              \

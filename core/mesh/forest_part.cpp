@@ -3,8 +3,6 @@
 namespace seaway::mesh {
 namespace {
 
-constexpr int entries(int dim) { return dim == 2 ? 9 : 27; }
-
 /// Offset -1, 0, 1 along an axis of an entry of Block::neighbour.
 constexpr int offset_of(int entry, int axis) {
   constexpr int power[3] = {1, 3, 9};
@@ -64,38 +62,17 @@ bool touches_chosen(const Forest<Dim>& forest, const std::vector<char>& chosen, 
 }  // namespace
 
 template <int Dim>
-std::vector<char> with_neighbours(const Forest<Dim>& forest, const std::vector<char>& chosen) {
-  std::vector<char> out = chosen;
-  for (const int b : forest.leaves()) {
-    if (!chosen[static_cast<std::size_t>(b)]) continue;
-    const Block<Dim>& block = forest.block(b);
-    for (int entry = 0; entry < entries(Dim); ++entry) {
-      const int nb = block.neighbour[static_cast<std::size_t>(entry)];
-      if (nb == no_block) continue;
-      if (nb == coarser_neighbour) {
-        out[static_cast<std::size_t>(coarser_leaf(forest, block, entry))] = 1;
-      } else if (forest.block(nb).leaf) {
-        out[static_cast<std::size_t>(nb)] = 1;
-      } else {
-        for (int c = 0; c < BlockShape<Dim>::children; ++c) {
-          bool touches = true;
-          for (int a = 0; a < Dim; ++a)
-            if (const int o = offset_of(entry, a); o != 0) touches = touches && ((c >> a) & 1) == (o < 0 ? 1 : 0);
-          if (touches) out[static_cast<std::size_t>(forest.block(nb).child[static_cast<std::size_t>(c)])] = 1;
-        }
-      }
-    }
+void choose_behind(const Forest<Dim>& forest, int leaf, int axis, int side, std::vector<char>& chosen) {
+  const int entry = face_neighbour<Dim>(axis, side);
+  const int nb = forest.block(leaf).neighbour[static_cast<std::size_t>(entry)];
+  if (nb == no_block) return;
+  if (nb == coarser_neighbour) {
+    chosen[static_cast<std::size_t>(coarser_leaf(forest, forest.block(leaf), entry))] = 1;
+  } else if (forest.block(nb).leaf) {
+    chosen[static_cast<std::size_t>(nb)] = 1;
+  } else {
+    for_children_at(forest.block(nb), axis, 1 - side, [&](int child) { chosen[static_cast<std::size_t>(child)] = 1; });
   }
-  // A level jump is inside or outside as a whole.
-  for (const CoarseFace& face : forest.coarse_faces()) {
-    bool any = chosen[static_cast<std::size_t>(face.leaf)] != 0;
-    const auto look = [&](int child) { any = any || chosen[static_cast<std::size_t>(child)]; };
-    for_children_at(forest.block(face.parent), face.axis, 1 - face.side, look);
-    if (!any) continue;
-    out[static_cast<std::size_t>(face.leaf)] = 1;
-    for_children_at(forest.block(face.parent), face.axis, 1 - face.side, [&](int child) { out[static_cast<std::size_t>(child)] = 1; });
-  }
-  return out;
 }
 
 template <int Dim>
@@ -140,8 +117,8 @@ ForestPart<Dim> make_part(const Forest<Dim>& forest, const std::vector<char>& ch
   return part;
 }
 
-template std::vector<char> with_neighbours<2>(const Forest<2>&, const std::vector<char>&);
-template std::vector<char> with_neighbours<3>(const Forest<3>&, const std::vector<char>&);
+template void choose_behind<2>(const Forest<2>&, int, int, int, std::vector<char>&);
+template void choose_behind<3>(const Forest<3>&, int, int, int, std::vector<char>&);
 template void complete_jumps<2>(const Forest<2>&, std::vector<char>&);
 template void complete_jumps<3>(const Forest<3>&, std::vector<char>&);
 template ForestPart<2> make_part<2>(const Forest<2>&, const std::vector<char>&);

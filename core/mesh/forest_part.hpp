@@ -24,10 +24,9 @@ struct ForestPart {
   }
 };
 
-/// Chosen leaves (by block, others are ignored) and all leaves that share a face, edge or corner with one; of a face
-/// between levels that a chosen leaf touches, all leaves on it: no chosen leaf has a cut side in the part they make.
+/// Chooses (by block) the leaves behind a side (0: lower, 1: upper along the axis) of a leaf.
 template <int Dim>
-std::vector<char> with_neighbours(const Forest<Dim>& forest, const std::vector<char>& chosen);
+void choose_behind(const Forest<Dim>& forest, int leaf, int axis, int side, std::vector<char>& chosen);
 
 /// Adds to chosen leaves (by block), of each face between levels whose coarse leaf and some finer one are chosen, all finer
 /// leaves. One pass: what it adds completes no further face.

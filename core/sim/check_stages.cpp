@@ -28,6 +28,17 @@ void check_cell(CheckState& s, const std::string& field, double cell) {
         "use larger cells or a smaller mesh.base_cell_m");
 }
 
+/// The solver's window around the hull is made of the finest leaves of a mesh.
+void check_not_below_hull(CheckState& s, const Stage& stage, const std::string& field, double cell) {
+  if (!s.has_hull() || !s.base_cell_ok || !(cell > 0) || !(stage.mesh.hull_cell > 0)) return;
+  const double at_hull = hull_cell(s.c, stage), here = actual_cell(s.c.base_cell, cell);
+  if (here < 0.75 * at_hull)
+    s.findings.error(field,
+                     fmt::format("makes cells of {:.4g} m, finer than those at the hull, {:.4g} m; these must be the finest of the mesh",
+                                 here, at_hull),
+                     fmt::format("set hull_cell_m to {:.4g}, or give coarser cells here", cell));
+}
+
 void check_mesh(CheckState& s, std::size_t i) {
   Findings& f = s.findings;
   const MeshRule& mesh = s.c.stages[i].mesh;
@@ -45,6 +56,7 @@ void check_mesh(CheckState& s, std::size_t i) {
     const SurfaceBand& band = mesh.surface[k];
     const std::string at = fmt::format("{}.surface[{}]", field, k);
     if (f.positive(at + ".cell_m", band.cell)) check_cell(s, at + ".cell_m", band.cell);
+    check_not_below_hull(s, s.c.stages[i], at + ".cell_m", band.cell);
     if (!(band.within > 0))
       f.error(at + ".within_m", fmt::format("{} m; it must be above 0", band.within),
               "leave it out: everywhere");
@@ -60,6 +72,7 @@ void check_mesh(CheckState& s, std::size_t i) {
     const RefinementBox& box = mesh.boxes[k];
     const std::string at = fmt::format("{}.boxes[{}]", field, k);
     if (f.positive(at + ".cell_m", box.cell)) check_cell(s, at + ".cell_m", box.cell);
+    check_not_below_hull(s, s.c.stages[i], at + ".cell_m", box.cell);
     if (s.c.dim == 3) f.extent(at + ".x_m", box.lower.x(), box.upper.x());
     f.extent(at + ".y_m", box.lower.y(), box.upper.y());
     f.extent(at + ".z_m", box.lower.z(), box.upper.z());
@@ -162,7 +175,7 @@ void check_wave_resolution(CheckState& s) {
     const std::string message =
         fmt::format("{:.3g} cells of {:.4g} m per wave height of {} m; {} are needed", cells, cell,
                     s.wave_height, cells_per_wave_height);
-    const std::string hint = fmt::format("give a surface band with cell_m of {:.3g} or less",
+    const std::string hint = fmt::format("give {} of {:.3g} or less", s.has_hull() && s.c.stages[i].mesh.hull_cell > 0 ? "hull_cell_m" : "a surface band with cell_m",
                                          s.wave_height / cells_per_wave_height);
     if (i + 1 == s.c.stages.size())
       s.findings.error(field, message, hint);

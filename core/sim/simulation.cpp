@@ -196,15 +196,15 @@ StepReport Simulation<Dim>::step() {
   const Case& c = model_->description;
   StepReport report;
   clock_.charge("output");
-  const std::vector<double> courant = advection_.courant_numbers(state_.w, dt_);
-  report.courant = flow::largest_courant(courant);
+  const auto courant = advection_.courant_numbers(state_.w, dt_);
+  report.courant = flow::largest_courant<Dim>(courant);
   if (!std::isfinite(report.courant) || report.courant > std::max(lost_courant, 4 * c.time.cfl * c.time.max_substeps)) {
     report.failed = true;
     report.failure = fmt::format("the Courant number reached {:.3g} at t = {:.4f} s", report.courant, time_);
     return report;
   }
   // Without a hull there is no book for what local sub-steps clip.
-  const flow::SubStepPlan<Dim> plan = flow::plan_sub_steps(*forest_, courant, c.time.cfl, mask_ != nullptr);
+  const flow::SubStepPlan<Dim> plan = flow::plan_sub_steps<Dim>(*forest_, courant, c.time.cfl, mask_ != nullptr);
   report.substeps = plan.total();
   // Transport with w at t + dt/2.
   if (mask_) book_.begin_step(*mask_, state_);

@@ -15,7 +15,8 @@ constexpr double periods[] = {1.4, 1.3, 1.5, 1.2, 1.7, 1.0, 2.0};
 constexpr int steps_per_period = 56;
 constexpr double bilge_speed = 0.25;  // where k and epsilon start from [m/s]
 
-/// The desk example in waves of another period, on its first mesh alone and until its motion repeats there.
+/// The desk example in waves of another period: on its first mesh until the motion repeats there, then with the cells that its
+/// last mesh has at the hull.
 sim::Case case_at(const std::string& example, double period) {
   sim::Case c = example_case(example);
   c.wave.period = period;
@@ -23,10 +24,17 @@ sim::Case case_at(const std::string& example, double period) {
   c.turbulence.model = sim::Turbulence::Model::stabilised;
   c.turbulence.walls = sim::Turbulence::Walls::non_equilibrium;
   c.turbulence.velocity = bilge_speed;
-  c.stages.resize(1);
+  const double finest = c.stages.back().mesh.hull_cell, margin = c.stages.back().mesh.hull_margin;
+  c.stages.resize(2);
   c.stages[0].end.tolerance = 0.02;
   c.stages[0].end.min_periods = 4;
   c.stages[0].end.max_periods = 12;
+  c.stages[1] = c.stages[0];
+  c.stages[1].name = "near";
+  c.stages[1].mesh.hull_cell = finest;
+  c.stages[1].mesh.hull_margin = margin;
+  c.stages[1].end.min_periods = 3;
+  c.stages[1].end.max_periods = 4;
   return c;
 }
 
@@ -42,7 +50,10 @@ double roll_rao(const std::string& condition, double period, const Context& cont
   const double roll = run.amplitude(run.roll, run.end_time(), period);
   results.report("roll" + of, roll / degree, "deg");
   results.report("heave_rao" + of, run.amplitude(run.heave, run.end_time(), period) / amplitude, "1");
-  results.report("settled" + of, run.stages.back().converged ? 1 : 0, "1");
+  for (const StageRecord& stage : run.stages) {
+    results.report("roll" + of + "_" + stage.name, run.amplitude(run.roll, stage.end, period) / degree, "deg");
+    results.report("settled" + of + "_" + stage.name, stage.converged ? 1 : 0, "1");
+  }
   results.report("cpu" + of, run.total_cpu_s, "s");
   results.report("roll_rao" + of, roll / (k * amplitude), "1");
   return roll / (k * amplitude);

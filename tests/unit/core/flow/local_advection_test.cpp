@@ -50,18 +50,21 @@ void plan_holds_the_limit() {
   const auto plan = plan_for<Dim>(forest, advection, state, dt);
   ASSERT_GT(plan.inner, 1);
   EXPECT_GE(plan.total(), 3);
-  EXPECT_FALSE(plan.fast.empty());
-  EXPECT_EQ(plan.fast.size() + plan.rest.leaves.size(), forest.leaves().size());
   EXPECT_LT(plan.region.leaves.size(), forest.leaves().size());
-  std::vector<char> fast(static_cast<std::size_t>(forest.n_blocks()), 0), inside = fast;
-  for (const int b : plan.fast) fast[static_cast<std::size_t>(b)] = 1;
+  std::vector<char> inside(static_cast<std::size_t>(forest.n_blocks()), 0);
   for (const int b : plan.region.leaves) inside[static_cast<std::size_t>(b)] = 1;
+  int cuts = 0;
   for (std::size_t i = 0; i < courant.size(); ++i) {
-    const auto b = static_cast<std::size_t>(forest.leaves()[i]);
-    EXPECT_LE(courant[i] / (fast[b] ? plan.total() : plan.whole), 0.45 * (1 + 1e-12));
-    EXPECT_TRUE(!fast[b] || inside[b]);
-    EXPECT_TRUE(!fast[b] || plan.region.cut_sides[b] == 0) << "a ring lies around every fast leaf";
+    const int b = forest.leaves()[i];
+    EXPECT_LE(courant[i].largest / (inside[static_cast<std::size_t>(b)] ? plan.total() : plan.whole), 0.45 * (1 + 1e-12));
+    for (int axis = 0; axis < Dim; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        if (!plan.region.is_cut(b, axis, side)) continue;
+        ++cuts;
+        EXPECT_LE(courant[i].at_side(axis, side) / plan.whole, 0.45 * (1 + 1e-12)) << "slow near the region's sides";
+      }
   }
+  EXPECT_GT(cuts, 0);
   EXPECT_EQ(plan_sub_steps<Dim>(forest, courant, 0.45, false).whole, 3);
   EXPECT_EQ(plan_sub_steps<Dim>(forest, courant, 2.0, true).total(), 1);
 }
@@ -206,75 +209,113 @@ FlowState<Dim> broken_surface(const Forest<Dim>& forest) {
   return state;
 }
 
-/// f(plan, step) with every `stride`-th leaf taken for a fast one, alone and together with a second.
+/// Largest Courant numbers of cells, and of those near a side, as sums over the cells' faces have them.
+TEST(LeafCourant, IsThatOfTheCellsAndOfThoseNearEachSide) {
+  const auto forest = unit_tank<3>(2, 0, 0, 0, true);
+  FlowState<3> state(forest);
+  fill_faces<3>(forest, [](const Vec3& x, int axis) { return noise<3>(x + Vec3::Constant(0.3 * axis)); }, state.w);
+  const Advection<3> advection(forest, {}, {});
+  const auto courant = advection.courant_numbers(state.w, 0.1);
+  std::vector<LeafCourant<3>> expected(courant.size());
+  constexpr int n = BlockShape<3>::n;
+  each_cell<3>(forest, [&](int b, const IVec<3>& i) {
+    double sum = 0;
+    for (int a = 0; a < 3; ++a) {
+      IVec<3> next = i;
+      ++next[a];
+      sum += 0.1 / forest.block(b).h[a] * std::max(std::abs(face_of(state.w, a, b, i)), std::abs(face_of(state.w, a, b, next)));
+    }
+    const auto at = std::find(forest.leaves().begin(), forest.leaves().end(), b) - forest.leaves().begin();
+    LeafCourant<3>& leaf = expected[static_cast<std::size_t>(at)];
+    leaf.largest = std::max(leaf.largest, sum);
+    for (int a = 0; a < 3; ++a) {
+      if (i[a] < courant_margin) leaf.at_side(a, 0) = std::max(leaf.at_side(a, 0), sum);
+      if (i[a] >= n - courant_margin) leaf.at_side(a, 1) = std::max(leaf.at_side(a, 1), sum);
+    }
+  });
+  for (std::size_t k = 0; k < courant.size(); ++k) {
+    EXPECT_NEAR(courant[k].largest, expected[k].largest, 1e-14);
+    for (std::size_t s = 0; s < 6; ++s) EXPECT_NEAR(courant[k].near_side[s], expected[k].near_side[s], 1e-14);
+  }
+}
+
+/// f(plan, step) with every `stride`-th leaf taken for a fast one, but not near its sides; alone and together with a second.
 template <int Dim, class F>
 void with_each_fast(const Forest<Dim>& forest, int stride, F&& f) {
   const auto n = static_cast<std::size_t>(forest.n_leaves());
   int tried = 0;
   for (std::size_t i = 0; i < n; i += static_cast<std::size_t>(stride)) {
-    std::vector<double> courant(n, 0.3);
-    courant[i] = 0.9;
-    if (i % 2 == 1) courant[(i + 3) % n] = 0.9;
+    std::vector<LeafCourant<Dim>> courant(n);
+    courant[i].largest = 0.9;
+    if (i % 2 == 1) courant[(i + 3) % n].largest = 0.9;
     const auto plan = plan_sub_steps<Dim>(forest, courant, 0.45, true);
-    if (plan.inner == 1) continue;  // the region would be most of the mesh
+    ASSERT_EQ(plan.inner, 2);
     SCOPED_TRACE(i);
-    ++tried;
-    f(plan, tried % Dim);
+    f(plan, ++tried % Dim);
   }
   EXPECT_GT(tried, 5);
 }
 
+/// How far two states are from each other: volume of water in other places [m^Dim], largest difference of velocities.
 template <int Dim>
-void unknown_fluxes_do_not_count(const Forest<Dim>& forest, int stride) {
-  const FlowState<Dim> start = broken_surface<Dim>(forest);
-  Advection<Dim> advection(forest, {}, {});
-  const double dt = 0.42 / advection.courant_number(start.w, 1.0);
-  with_each_fast<Dim>(forest, stride, [&](SubStepPlan<Dim> plan, int step) {
-    FlowState<Dim> a = start;
-    advection.advance(a, dt, step, plan);
-    for (const double flux : {0.003, std::nan("")}) {
-      FlowState<Dim> b = start;
-      plan.unknown_flux = flux;
-      advection.advance(b, dt, step, plan);
-      EXPECT_TRUE(a.vof.data() == b.vof.data()) << flux;
-      for (int axis = 0; axis < Dim; ++axis) EXPECT_TRUE(a.u.data(axis) == b.u.data(axis)) << flux;
-    }
+std::pair<double, double> distance(const Forest<Dim>& forest, const FlowState<Dim>& a, const FlowState<Dim>& b) {
+  double vof = 0, u = 0;
+  each_cell<Dim>(forest, [&](int at, const IVec<Dim>& i) {
+    vof += std::abs(cell_of(a.vof, at, i) - cell_of(b.vof, at, i)) * forest.block(at).cell_volume();
   });
+  for (int axis = 0; axis < Dim; ++axis)
+    each_face<Dim>(forest, axis, [&](int at, const IVec<Dim>& i) {
+      u = std::max(u, std::abs(face_of(a.u, axis, at, i) - face_of(b.u, axis, at, i)));
+    });
+  return {vof, u};
 }
-TEST(LocalAdvection, KeepsNothingOfUnknownFluxesBesideLevelJumps) { unknown_fluxes_do_not_count<2>(jumpy<2>(), 3); }
-TEST(LocalAdvection, KeepsNothingOfUnknownFluxesOnThreeLevels) { unknown_fluxes_do_not_count<2>(scattered<2>(2, 0.35), 7); }
-TEST(LocalAdvection, KeepsNothingOfUnknownFluxesIn3D) { unknown_fluxes_do_not_count<3>(scattered<3>(1, 0.3), 53); }
 
-/// Outside the region and on its sides the flow is what a sub-step of the whole mesh makes of it.
+/// A region may be cut anywhere, through level jumps too: cells gain what passed their faces, and the flow is no further from
+/// that of a long sub-step of the whole mesh than that is from the flow of two short ones.
 template <int Dim>
-void rest_is_that_of_the_whole(const Forest<Dim>& forest, int stride) {
+void regions_may_be_cut_anywhere(const Forest<Dim>& forest, int stride) {
   const FlowState<Dim> start = broken_surface<Dim>(forest);
   Advection<Dim> advection(forest, {}, {});
   const double dt = 0.42 / advection.courant_number(start.w, 1.0);
   std::vector<FlowState<Dim>> whole(Dim, start);
-  for (int step = 0; step < Dim; ++step) advection.advance(whole[static_cast<std::size_t>(step)], dt, step);
+  double bound_vof = 0, bound_u = 0;
+  for (int step = 0; step < Dim; ++step) {
+    FlowState<Dim> halves = start;
+    for (int k = 0; k < 2; ++k) advection.advance(halves, 0.5 * dt, step);
+    advection.advance(whole[static_cast<std::size_t>(step)], dt, step);
+    const auto [vof, u] = distance<Dim>(forest, whole[static_cast<std::size_t>(step)], halves);
+    bound_vof = std::max(bound_vof, vof);
+    bound_u = std::max(bound_u, u);
+  }
+  double largest_vof = 0, largest_u = 0, balance = 0;
+  FaceField<double, Dim> passed(forest);
+  advection.set_flux_visitor([&](int axis, const FaceField<double, Dim>& swept) { passed.data(axis) = swept.data(axis); });
   with_each_fast<Dim>(forest, stride, [&](const SubStepPlan<Dim>& plan, int step) {
-    const FlowState<Dim>& expected = whole[static_cast<std::size_t>(step)];
     FlowState<Dim> state = start;
-    advection.advance(state, dt, step, plan);
-    std::vector<char> inside(static_cast<std::size_t>(forest.n_blocks()), 0);
-    for (const int b : plan.region.leaves) inside[static_cast<std::size_t>(b)] = 1;
-    int vof = 0, u = 0;  // that differ
+    CellField<double, Dim> clipped(forest);
+    for (const auto& clip : advection.advance(state, dt, step, plan)) clipped.data()[static_cast<std::size_t>(clip.cell)] += clip.volume;
     each_cell<Dim>(forest, [&](int b, const IVec<Dim>& i) {
-      if (!inside[static_cast<std::size_t>(b)]) vof += cell_of(state.vof, b, i) != cell_of(expected.vof, b, i);
+      const auto& block = forest.block(b);
+      double gain = -cell_of(clipped, b, i) / block.cell_volume();
+      for (int axis = 0; axis < Dim; ++axis) {
+        IVec<Dim> next = i;
+        ++next[axis];
+        gain += (face_of(passed, axis, b, i) - face_of(passed, axis, b, next)) / block.h[axis];
+      }
+      balance = std::max(balance, std::abs(cell_of(state.vof, b, i) - cell_of(start.vof, b, i) - gain));
     });
-    for (int a = 0; a < Dim; ++a)
-      each_face<Dim>(forest, a, [&](int b, const IVec<Dim>& i) {
-        const bool side = (i[a] == 0 && plan.region.is_cut(b, a, 0)) || (i[a] == BlockShape<Dim>::n && plan.region.is_cut(b, a, 1));
-        if (side || !inside[static_cast<std::size_t>(b)]) u += face_of(state.u, a, b, i) != face_of(expected.u, a, b, i);
-      });
-    EXPECT_EQ(vof, 0);
-    EXPECT_EQ(u, 0);
+    const auto [vof, u] = distance<Dim>(forest, state, whole[static_cast<std::size_t>(step)]);
+    largest_vof = std::max(largest_vof, vof);
+    largest_u = std::max(largest_u, u);
   });
+  std::cout << "vof " << largest_vof << " of " << bound_vof << ", u " << largest_u << " of " << bound_u << ", balance " << balance << '\n';
+  EXPECT_LT(balance, 1e-12);
+  EXPECT_LT(largest_vof, bound_vof);
+  EXPECT_LT(largest_u, 1.1 * bound_u);
 }
-TEST(LocalAdvection, LeavesTheRestAsTheWholeMeshHasItBesideLevelJumps) { rest_is_that_of_the_whole<2>(jumpy<2>(), 2); }
-TEST(LocalAdvection, LeavesTheRestAsTheWholeMeshHasItOnThreeLevels) { rest_is_that_of_the_whole<2>(scattered<2>(2, 0.35), 3); }
-TEST(LocalAdvection, LeavesTheRestAsTheWholeMeshHasItIn3D) { rest_is_that_of_the_whole<3>(scattered<3>(1, 0.3), 37); }
+TEST(LocalAdvection, RegionsMayBeCutBesideLevelJumps) { regions_may_be_cut_anywhere<2>(jumpy<2>(), 2); }
+TEST(LocalAdvection, RegionsMayBeCutOnThreeLevels) { regions_may_be_cut_anywhere<2>(scattered<2>(2, 0.35), 3); }
+TEST(LocalAdvection, RegionsMayBeCutIn3D) { regions_may_be_cut_anywhere<3>(scattered<3>(1, 0.3), 37); }
 
 TEST(LocalAdvection, GivesTheSameBitsOnAnyNumberOfThreads) {
   const auto one = jumpy<2>(1), three = jumpy<2>(3);

@@ -22,43 +22,39 @@ Forest<Dim> uneven(bool periodic) {
   return Forest<Dim>(grid, 2, rule, 1);
 }
 
-/// Whether two leaves share more than nothing of their surfaces; of a periodic tank the nearest images count.
+/// Whether leaf `b` lies behind a side of leaf `a`, sharing more than an edge with it; of a periodic tank images count.
 template <int Dim>
-bool touch(const Forest<Dim>& f, int a, int b) {
+bool behind(const Forest<Dim>& f, int a, int b, int axis, int side) {
   constexpr int n = BlockShape<Dim>::n;
   for (int d = 0; d < Dim; ++d) {
     const double la = f.block(a).origin[d], lb = f.block(b).origin[d];
-    const double ea = n * f.block(a).h[d], eb = n * f.block(b).h[d];
-    bool near = la <= lb + eb + 1e-9 && lb <= la + ea + 1e-9;
-    if (f.grid().periodic[static_cast<std::size_t>(d)])
-      for (const double shift : {-4.0, 4.0}) near = near || (la + shift <= lb + eb + 1e-9 && lb <= la + shift + ea + 1e-9);
-    if (!near) return false;
+    const double ha = la + n * f.block(a).h[d], hb = lb + n * f.block(b).h[d];
+    bool meets = false;
+    for (const double shift : {0.0, -4.0, 4.0}) {
+      if (shift != 0 && !f.grid().periodic[static_cast<std::size_t>(d)]) continue;
+      meets = meets || (d == axis ? std::abs(side == 0 ? la - hb - shift : ha - lb - shift) < 1e-9
+                                  : la < hb + shift - 1e-9 && lb + shift < ha - 1e-9);
+    }
+    if (!meets) return false;
   }
   return true;
 }
 
 template <int Dim>
-void neighbours_are_those_that_touch(bool periodic) {
+void those_behind_a_side_are_chosen(bool periodic) {
   const Forest<Dim> f = uneven<Dim>(periodic);
-  for (const int chosen : f.leaves()) {
-    std::vector<char> one(static_cast<std::size_t>(f.n_blocks()), 0);
-    one[static_cast<std::size_t>(chosen)] = 1;
-    const auto around = with_neighbours(f, one);
-    const auto part = make_part(f, around);
-    EXPECT_EQ(part.cut_sides[static_cast<std::size_t>(chosen)], 0);
-    for (const int b : f.leaves()) {
-      if (touch(f, chosen, b)) {
-        EXPECT_TRUE(around[static_cast<std::size_t>(b)]) << chosen << " " << b;
-      } else if (around[static_cast<std::size_t>(b)]) {
-        // Beyond those only what completes a face between levels: leaves finer than one that touches.
-        EXPECT_EQ(f.block(b).level, f.block(chosen).level);
+  for (const int leaf : f.leaves())
+    for (int axis = 0; axis < Dim; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        std::vector<char> chosen(static_cast<std::size_t>(f.n_blocks()), 0);
+        choose_behind(f, leaf, axis, side, chosen);
+        for (const int b : f.leaves())
+          EXPECT_EQ(chosen[static_cast<std::size_t>(b)] != 0, behind(f, leaf, b, axis, side)) << leaf << " " << axis << side << " " << b;
       }
-    }
-  }
 }
-TEST(ForestPart, NeighboursAreTheLeavesThatTouchIn2D) { neighbours_are_those_that_touch<2>(false); }
-TEST(ForestPart, NeighboursAreTheLeavesThatTouchIn3D) { neighbours_are_those_that_touch<3>(false); }
-TEST(ForestPart, NeighboursMeetAcrossPeriodicSides) { neighbours_are_those_that_touch<2>(true); }
+TEST(ForestPart, ThoseBehindASideAreChosenIn2D) { those_behind_a_side_are_chosen<2>(false); }
+TEST(ForestPart, ThoseBehindASideAreChosenIn3D) { those_behind_a_side_are_chosen<3>(false); }
+TEST(ForestPart, ThoseBehindASideAreChosenAcrossPeriodicSides) { those_behind_a_side_are_chosen<2>(true); }
 
 /// Nothing but finer leaves on the faces of chosen coarse ones with some chosen finer leaf, and all of those.
 template <int Dim>

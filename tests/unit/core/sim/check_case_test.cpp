@@ -112,7 +112,11 @@ const Fault faults[] = {
      "hull.compartments[1]", "starts dry, behind walls thinner than 2 cells", warning},
     {"CoarseHullCell", [](Case& c) { c.stages[0].mesh.hull_cell = 0.02; },
      "hull.compartments", "2 cells of 0.02 m", warning},
-    {"NarrowCompartment", [](Case& c) { c.stages[0].mesh.hull_cell = 0.04; },
+    {"NarrowCompartment",
+     [](Case& c) {
+       c.stages[0].mesh.hull_cell = 0.04;
+       for (SurfaceBand& band : c.stages[0].mesh.surface) band.cell = 0.04;
+     },
      "hull.compartments[0].y_m", "less than 4 cells of 0.04 m"},
     {"ThinBulkhead",
      [](Case& c) {
@@ -180,6 +184,11 @@ const Fault faults[] = {
      "used twice"},
     {"NegativeCell", [](Case& c) { c.stages[1].mesh.hull_cell = -0.01; },
      "cascade.stages[1].mesh.hull_cell_m", "-0.01"},
+    {"BandBelowTheHullsCells", [](Case& c) { c.stages[2].mesh.surface[0].cell = 0.4 * c.stages[2].mesh.hull_cell; },
+     "cascade.stages[2].mesh.surface[0].cell_m", "finer than those at the hull"},
+    {"BoxBelowTheHullsCells",
+     [](Case& c) { c.stages[0].mesh.boxes.push_back({0.4 * c.stages[0].mesh.hull_cell, {0, -1, -0.1}, {0, -0.9, 0.1}}); },
+     "cascade.stages[0].mesh.boxes[0].cell_m", "finer than those at the hull"},
     {"CoarseFinestBand",
      [](Case& c) {
        c.stages[2].mesh.hull_cell = 0;
