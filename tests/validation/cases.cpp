@@ -66,6 +66,8 @@ const std::vector<Case>& all_cases() {
       {"dtmb5415_decay_damaged", Suite::ships,
        "roll decay of the ship with two flooded compartments from 18.3 degrees: nine cycles against the towing tank",
        run_dtmb5415_decay_damaged, "ship_decay"},
+      {"dtmb5415_decay_meshes", Suite::ships, "the same roll decays on three meshes: periods and peaks by cycle",
+       run_dtmb5415_decay_meshes, "ship_decay"},
       {"dtmb5415_damping", Suite::ships, "roll decay of both ships with slip, friction and turbulence: damping",
        run_dtmb5415_damping, "ship_damping"},
       {"dtmb5415_beam_waves", Suite::ships, "the ship in the paper's beam waves, damaged and intact: roll and heave",
@@ -75,6 +77,8 @@ const std::vector<Case>& all_cases() {
       {"cascade_section", Suite::full,
        "the example through three meshes against the finest alone: amplitudes, CPU time saved",
        run_cascade_section},
+      {"cascade_ship", Suite::ships,
+       "the damaged ship in beam waves through three meshes against the finest alone: amplitudes, CPU time saved", run_cascade_ship},
   };
   return cases;
 }

@@ -1,4 +1,6 @@
-// [dtmb5415_decay_intact], [dtmb5415_decay_damaged] Free roll of the DTMB 5415 against the towing tank; see README.md.
+// [dtmb5415_decay_intact], [dtmb5415_decay_damaged], [dtmb5415_decay_meshes] Free roll of the DTMB 5415 against the towing tank; see README.md.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/base/constants.hpp"
@@ -62,6 +64,38 @@ void run_dtmb5415_decay_damaged(const Context& context, Results& results) {
   // Measured in the towing tank.
   results.expect_near("period_9", cycle(decay, 9).period, "s", 1.515, 0.05 * 1.515);
   results.expect_near("peak_9", cycle(decay, 9).angle, "deg", 1.556, 0.2 * 1.556);
+}
+
+void run_dtmb5415_decay_meshes(const Context& context, Results& results) {
+  const KeptRuns runs(context.results, "dtmb5415_decay_meshes");
+  std::vector<Curve> damaged_curves, ship_curves;
+  for (const std::string condition : {"damaged", "intact"}) {
+    const std::string example = "dtmb5415_ship_" + condition + "_decay_desk.yaml";
+    const sim::Case waves = example_case("dtmb5415_ship_" + condition + "_beam_waves_desk.yaml");
+    for (const std::string mesh : {"A", "B", "C"}) {
+      sim::Case c = example_case(example);
+      std::string name = "dtmb5415_decay_" + condition;  // C is the example's own
+      if (mesh != "C") {
+        c.stages[0].mesh = waves.stages[mesh == "A" ? 0 : 1].mesh;
+        name += "_" + mesh;
+      }
+      const RunRecord run = runs.finished(name, example, c, context.threads, {});
+      const std::string of = "_" + condition + "_" + mesh;
+      results.report("cells" + of, static_cast<double>(run.stages.back().cells), "1");
+      results.report("cpu" + of, run.total_cpu_s, "s");
+      const analysis::Decay decay = run.roll_decay();
+      for (const analysis::DecayCycle& at : decay.cycles) {
+        results.report(fmt::format("period_{}{}", at.number, of), at.period, "s");
+        results.report(fmt::format("peak_{}{}", at.number, of), at.angle, "deg");
+      }
+      Curve curve{condition + ", mesh " + mesh, run.t, {}};
+      for (const double roll : run.roll) curve.y.push_back(roll / degree);
+      if (condition == "damaged") damaged_curves.push_back(curve);
+      if (mesh == "C") ship_curves.push_back(curve);
+    }
+  }
+  results.plot({"free roll of the damaged ship on three meshes", "t, s", "roll, deg", damaged_curves});
+  results.plot({"free roll of both ships on the finest mesh", "t, s", "roll, deg", ship_curves});
 }
 
 }  // namespace seaway::validation

@@ -1,6 +1,9 @@
 // [dtmb5415_rao] Roll and heave of the DTMB 5415 over the period of beam waves, damaged and intact; see README.md.
 #include <fmt/format.h>
 
+#include <array>
+#include <map>
+
 #include "core/base/constants.hpp"
 #include "core/waves/airy.hpp"
 #include "tests/validation/cases.hpp"
@@ -38,13 +41,20 @@ sim::Case case_at(const std::string& example, double period) {
   return c;
 }
 
-/// Roll over the wave's slope at one period [1]; run or read.
+/// The run in waves of one period, made or read: at the example's own period that of dtmb5415_beam_waves.
+RunRecord run_at(double period, const std::string& condition, const std::string& example, const Context& context) {
+  const KeptRuns runs(context.results, "dtmb5415_rao");
+  const sim::Case c = example_case(example);
+  if (period == c.wave.period) return runs.finished("dtmb5415_beam_waves_" + condition, example, c, context.threads, {});
+  return runs.finished(fmt::format("dtmb5415_rao_{}_{:.1f}", condition, period), example, case_at(example, period), context.threads, {});
+}
+
+/// Roll over the wave's slope at one period [1].
 double roll_rao(const std::string& condition, double period, const Context& context, Results& results) {
   const std::string example = "dtmb5415_ship_" + condition + "_beam_waves_desk.yaml";
   const sim::Case c = case_at(example, period);
   const std::string of = fmt::format("_{}_{:.1f}", condition, period);
-  const KeptRuns runs(context.results, "dtmb5415_rao");
-  const RunRecord run = runs.finished("dtmb5415_rao" + of, example, c, context.threads, {});
+  const RunRecord run = run_at(period, condition, example, context);
   const double amplitude = 0.5 * c.wave.height;
   const double k = waves::linear_wave_number(2 * pi / period, -c.tank.lower.z(), c.fluids.gravity);
   const double roll = run.amplitude(run.roll, run.end_time(), period);
@@ -62,18 +72,29 @@ double roll_rao(const std::string& condition, double period, const Context& cont
 }  // namespace
 
 void run_dtmb5415_rao(const Context& context, Results& results) {
-  for (const char* condition : {"damaged", "intact"}) {
+  struct Condition {
+    std::string name;
+    std::map<double, double> rao;  // by period [s]
+  };
+  std::array<Condition, 2> conditions{{{"damaged", {}}, {"intact", {}}}};
+  for (const double period : periods)
+    for (Condition& condition : conditions) condition.rao[period] = roll_rao(condition.name, period, context, results);
+  std::vector<Curve> curves;
+  for (const Condition& condition : conditions) {
+    Curve& curve = curves.emplace_back(Curve{condition.name, {}, {}});
     double highest = 0, peak_period = 0;
-    for (const double period : periods) {
-      const double rao = roll_rao(condition, period, context, results);
+    for (const auto& [period, rao] : condition.rao) {
+      curve.x.push_back(period);
+      curve.y.push_back(rao);
       if (rao <= highest) continue;
       highest = rao;
       peak_period = period;
     }
-    results.report(std::string("points_") + condition, static_cast<double>(std::size(periods)), "1");
+    results.report("points_" + condition.name, static_cast<double>(condition.rao.size()), "1");
     // Towing tank and the paper: 1.4 s in both conditions.
-    results.expect_near(std::string("peak_period_") + condition, peak_period, "s", 1.4, 0.1);
+    results.expect_near("peak_period_" + condition.name, peak_period, "s", 1.4, 0.1);
   }
+  results.plot({"roll in beam waves of 0.061 m", "period, s", "roll over wave slope", curves});
 }
 
 }  // namespace seaway::validation

@@ -1,4 +1,4 @@
-#include "tests/validation/cascade_section/picture.hpp"
+#include "tests/validation/support/cascade_picture.hpp"
 
 #include <fmt/format.h>
 
