@@ -9,6 +9,7 @@
 #include "core/sim/build_hull.hpp"
 #include "core/sim/findings.hpp"
 #include "core/sim/mesh_regions.hpp"
+#include "core/sim/time_step.hpp"
 
 namespace seaway::sim {
 
@@ -118,12 +119,10 @@ double stage_duration(const CheckState& s, std::size_t i) {
 }  // namespace
 
 void estimate_cost(CheckState& s) {
-  const auto step_of = [&](double dt, double steps_per_period) { return dt > 0 ? dt : shortest_period(s) / steps_per_period; };
   for (std::size_t i = 0; i < s.c.stages.size(); ++i) {
     StageEstimate e;
     const Stage& stage = s.c.stages[i];
-    const bool own = stage.dt > 0 || stage.steps_per_period > 0;
-    const double dt = own ? step_of(stage.dt, stage.steps_per_period) : step_of(s.c.time.dt, s.c.time.steps_per_period);
+    const double dt = time_step(s.c.time, stage, shortest_period(s), s.wave_period);
     e.name = s.c.stages[i].name;
     e.cells = s.c.dim == 2 ? count_cells<2>(s, s.c.stages[i]) : count_cells<3>(s, s.c.stages[i]);
     e.dt = dt;

@@ -9,6 +9,7 @@
 #include "core/sim/build_wave.hpp"
 #include "core/sim/mesh_regions.hpp"
 #include "core/sim/simulation.hpp"
+#include "core/sim/time_step.hpp"
 
 namespace seaway::sim {
 namespace {
@@ -118,17 +119,9 @@ Model<Dim> make_model(const Case& c) {
   m.period = m.wave ? m.wave->period() : periods.longest;
   double shortest = periods.shortest;
   if (shortest <= 0) shortest = 2 * pi * std::sqrt(std::abs(c.tank.lower.z()) / c.fluids.gravity);
-  const auto step_of = [&](double given, double steps_per_period) {
-    if (given > 0) return given;
-    const double dt = shortest / steps_per_period;
-    // Whole steps in a wave period, so that harmonic fits see every phase alike.
-    return m.wave ? m.wave->period() / std::ceil(m.wave->period() / dt - 1e-9) : dt;
-  };
-  m.dt = step_of(c.time.dt, c.time.steps_per_period);
-  for (const Stage& stage : c.stages) {
-    const bool own = stage.dt > 0 || stage.steps_per_period > 0;
-    m.stage_dt.push_back(own ? step_of(stage.dt, stage.steps_per_period) : m.dt);
-  }
+  const double wave_period = m.wave ? m.wave->period() : 0;
+  m.dt = time_step(c.time, shortest, wave_period);
+  for (const Stage& stage : c.stages) m.stage_dt.push_back(time_step(c.time, stage, shortest, wave_period));
   return m;
 }
 

@@ -61,11 +61,7 @@ void read_zones(const v1::Zones& m, sim::Zones& zones, Checker& check) {
 }
 
 void read_time(const v1::TimeControl& m, sim::TimeControl& time, Checker& check) {
-  if (m.has_dt_s() && m.has_steps_per_period())
-    check.problem("time.steps_per_period", "has no effect beside time.dt_s", "keep one of them");
-  if (m.has_dt_s()) time.dt = check.number("time.dt_s", m.dt_s(), positive);
-  if (m.has_steps_per_period())
-    time.steps_per_period = check.number("time.steps_per_period", m.steps_per_period(), {10, 1e5});
+  read_time_step(m, "time", time, check);
   if (m.has_max_substeps()) time.max_substeps = check.count("time.max_substeps", m.max_substeps(), 1, 64);
   if (m.has_cfl()) time.cfl = check.number("time.cfl", m.cfl(), {0, 0.5, true});
 }

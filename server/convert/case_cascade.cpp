@@ -73,14 +73,6 @@ void read_mapping(const v1::Mapping& m, const std::string& path, sim::Mapping& m
   if (m.has_evaluate_all()) mapping.evaluate_all = m.evaluate_all();
 }
 
-void read_time(const v1::StageTime& m, const std::string& path, sim::Stage& stage, Checker& check) {
-  if (m.has_dt_s() && m.has_steps_per_period())
-    check.problem(path + ".steps_per_period", "has no effect beside dt_s", "keep one of them");
-  if (m.has_dt_s()) stage.dt = check.number(path + ".dt_s", m.dt_s(), positive);
-  if (m.has_steps_per_period())
-    stage.steps_per_period = check.number(path + ".steps_per_period", m.steps_per_period(), {10, 1e5});
-}
-
 }  // namespace
 
 void read_cascade(const v1::Cascade& m, int dim, std::vector<sim::Stage>& stages, Checker& check) {
@@ -95,7 +87,7 @@ void read_cascade(const v1::Cascade& m, int dim, std::vector<sim::Stage>& stages
     sim::Stage to;
     to.name = from.name().empty() ? fmt::format("{}", i + 1) : from.name();
     check.line(path + ".name", from.name(), 40);
-    read_time(from.time(), path + ".time", to, check);
+    read_time_step(from.time(), path + ".time", to, check);
     read_mesh(from.mesh(), path + ".mesh", dim, to.mesh, check);
     read_end(from.end(), path + ".end", to.end, check);
     if (i == 0 && from.has_mapping())

@@ -18,6 +18,17 @@ using Extent = google::protobuf::RepeatedField<double>;
 void read_box(const Extent& x, const Extent& y, const Extent& z, const std::string& path, int dim, Vec3& lower,
               Vec3& upper, Checker& check);
 
+/// The step's length or the steps in a period, of a case's or a stage's time (v1::TimeControl, v1::StageTime), into
+/// `time`.dt and `time`.steps_per_period.
+template <class Message, class Time>
+void read_time_step(const Message& m, const std::string& path, Time& time, Checker& check) {
+  if (m.has_dt_s() && m.has_steps_per_period())
+    check.problem(path + ".steps_per_period", "has no effect beside " + path + ".dt_s", "keep one of them");
+  if (m.has_dt_s()) time.dt = check.number(path + ".dt_s", m.dt_s(), positive);
+  if (m.has_steps_per_period())
+    time.steps_per_period = check.number(path + ".steps_per_period", m.steps_per_period(), {10, 1e5});
+}
+
 Vec3 read_vector(const v1::Vector& v);
 void put_wave(const sim::Wave& wave, v1::Wave& message);
 bool dof_exists(sim::Dof dof, int dim);
