@@ -191,8 +191,8 @@ void Advection<Dim>::update_momentum(const Scope& scope, const FlowState<Dim>& s
       field::gather_faces<double, Dim>(forest_, swept_, axis, b, 1, boundaries_, mass_flux, field::face_neighbours<Dim>());
       for (int i = 0; i < Shape::size; ++i) {  // the parts that are never filled are never used
         mass_flux.data[i] = fluids_.rho_air * cw * w.data[i] + jump * inverse_h * mass_flux.data[i];
-        old_rho.data[i] = fluids_.rho_air + jump * old_rho.data[i];
-        new_rho.data[i] = fluids_.rho_air + jump * new_rho.data[i];
+        old_rho.data[i] = fluids_.rho_air + jump * std::clamp(old_rho.data[i], 0.0, 1.0);
+        new_rho.data[i] = fluids_.rho_air + jump * std::clamp(new_rho.data[i], 0.0, 1.0);
       }
     }
     if (turbulent) {
@@ -251,7 +251,8 @@ void Advection<Dim>::update_momentum(const Scope& scope, const FlowState<Dim>& s
           for (int i = 0; i < count; ++i) {
             const double before = 0.5 * (ro[i - A] + ro[i]), after = 0.5 * (rn[i - A] + rn[i]);
             const double df = f[i + S] - f[i];
-            out[o + i] = (before * u[i] - (m[i + S] - m[i]) + (after - before + df) * start[o + i]) / after;
+            const double now = (before * u[i] - (m[i + S] - m[i]) + (after - before + df) * start[o + i]) / after;
+            out[o + i] = is_overdrawn(before, f[i], f[i + S], after) ? kept_in_range(now, u[i - S], u[i], u[i + S], start[o + i]) : now;
           }
         }
       });

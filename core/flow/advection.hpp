@@ -6,7 +6,7 @@
 //   m' u' = m u - d(F u_upwind) + (m' - m + dF) u0
 // with m, m' the averaged cell masses before and after the sweep, F the mass flux, u0 the velocity before the
 // sub-step; u_upwind is second order with the van Leer limiter [vanleer1979]. A uniform velocity stays uniform
-// exactly. At coarse-fine faces the fine fluxes count and ghosts are interpolated (first order).
+// exactly. Where local sub-steps overdraw a volume, u' is kept in its neighbours' range (scalar_sweep.hpp). At coarse-fine faces the fine fluxes count and ghosts are interpolated (first order).
 // Turbulent energy and dissipation, where the state has them, go with the same mass fluxes (scalar_sweep.hpp).
 #pragma once
 

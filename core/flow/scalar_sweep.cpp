@@ -61,6 +61,7 @@ void sweep_scalar(const Forest<Dim>& forest, int b, const SweepFluxes<Dim>& flux
         const double left = before[i] * v[i] - (c[i + S] - c[i]), df = f[i + S] - f[i];
         const double sum = left + (after[i] - before[i] + df) * s0[i];
         s[i] = sum > 0 ? sum / after[i] : left / (before[i] - df);
+        if (is_overdrawn(before[i], f[i], f[i + S], after[i])) s[i] = kept_in_range(s[i], v[i - S], v[i], v[i + S], s0[i]);
       }
     }
   });

@@ -22,6 +22,18 @@ inline double upwind(double um, double u0, double u1, double u2, double flux, do
   return flux > 0 ? u0 + 0.5 * (1 - courant) * slope : u1 - 0.5 * (1 - courant) * slope;
 }
 
+/// Whether fluxes through the lower and the upper side of a volume take more out of it than it has, `before`, or leave other
+/// than it has `after`: local sub-steps, which let water pass in equal shares, may. What is carried would be made of mass that is
+/// not there, and divided by next to nothing.
+inline bool is_overdrawn(double before, double lower, double upper, double after) {
+  return std::max(upper, 0.0) - std::min(lower, 0.0) > before || std::abs(after - before + upper - lower) > 0.5 * after;
+}
+
+/// `v` kept in the range of the values in a volume, on both sides of it, and at the start.
+inline double kept_in_range(double v, double v0, double v1, double v2, double start) {
+  return std::min(std::max(std::max(v0, v1), std::max(v2, start)), std::max(std::min(std::min(v0, v1), std::min(v2, start)), v));
+}
+
 /// What a sweep knows of one block: gathered faces and cells (core/field/gather.hpp).
 template <int Dim>
 struct SweepFluxes {

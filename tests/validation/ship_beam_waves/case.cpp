@@ -32,8 +32,8 @@ Amplitudes amplitudes_of(const std::string& condition, const Context& context, R
 
 void run_dtmb5415_beam_waves(const Context& context, Results& results) {
   const Amplitudes damaged = amplitudes_of("damaged", context, results);
-  // Towing tank; flow without a turbulence model.
-  results.expect_near("roll_damaged", damaged.roll, "deg", 17.4, 0.25 * 17.4);
+  // Towing tank; k-epsilon with walls.
+  results.expect_near("roll_damaged", damaged.roll, "deg", 17.4, 0.15 * 17.4);
   results.report("heave_damaged", damaged.heave, "m");
   const Amplitudes intact = amplitudes_of("intact", context, results);
   results.report("roll_intact", intact.roll, "deg");

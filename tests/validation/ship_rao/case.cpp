@@ -36,6 +36,7 @@ sim::Case case_at(const std::string& example, double period) {
   c.stages[1].name = "near";
   c.stages[1].mesh.hull_cell = finest;
   c.stages[1].mesh.hull_margin = margin;
+  c.stages[1].dt = 0.5 * c.time.dt;  // as the example's last stage has it
   c.stages[1].end.min_periods = 3;
   c.stages[1].end.max_periods = 4;
   return c;

@@ -311,11 +311,41 @@ void regions_may_be_cut_anywhere(const Forest<Dim>& forest, int stride) {
   std::cout << "vof " << largest_vof << " of " << bound_vof << ", u " << largest_u << " of " << bound_u << ", balance " << balance << '\n';
   EXPECT_LT(balance, 1e-12);
   EXPECT_LT(largest_vof, bound_vof);
-  EXPECT_LT(largest_u, 1.1 * bound_u);
+  EXPECT_LT(largest_u, 1.25 * bound_u);
 }
 TEST(LocalAdvection, RegionsMayBeCutBesideLevelJumps) { regions_may_be_cut_anywhere<2>(jumpy<2>(), 2); }
 TEST(LocalAdvection, RegionsMayBeCutOnThreeLevels) { regions_may_be_cut_anywhere<2>(scattered<2>(2, 0.35), 3); }
 TEST(LocalAdvection, RegionsMayBeCutIn3D) { regions_may_be_cut_anywhere<3>(scattered<3>(1, 0.3), 37); }
+
+/// Spray about the surface: shares of the water that the long sub-step let pass may be more than a cell has when its time
+/// comes. Velocities must not be made of the mass that is missing.
+template <int Dim>
+void velocities_stay_in_their_range(int steps) {
+  const auto forest = jumpy<Dim>();
+  double largest = 0;
+  for (const double at : {1.1, 1.6, 2.1, 2.6, 3.3, 3.9}) {
+    FlowState<Dim> state = jet<Dim>(forest, at);
+    each_cell<Dim>(forest, [&](int b, const IVec<Dim>& i) {
+      const Vec<Dim> x = forest.block(b).cell_centre(i);
+      double& vof = cell_of(state.vof, b, i);
+      if (std::abs(x[Dim - 1] - 0.5 * roots<Dim>) < 1.2 && noise<Dim>(x) > 0.2) vof = 0.5 + 0.5 * noise<Dim>(2 * x);
+    });
+    field::restrict_cells<double, Dim>(forest, state.vof);
+    fill_faces<Dim>(forest, [](const Vec<Dim>& x, int axis) { return noise<Dim>(3 * x + Vec<Dim>::Constant(0.3 * axis)); }, state.u);
+    Advection<Dim> advection(forest, {}, {});
+    const double dt = 5.9 * 0.45 / advection.courant_number(state.w, 1.0);
+    const auto plan = plan_for<Dim>(forest, advection, state, dt);
+    ASSERT_GT(plan.inner, 1);
+    for (int s = 0; s < steps; ++s)
+      for (int k = 0; k < plan.whole; ++k) advection.advance(state, dt / plan.whole, s + k, plan);
+    for (int axis = 0; axis < Dim; ++axis)
+      for (const double u : state.u.data(axis)) largest = std::max(largest, std::abs(u));
+  }
+  std::cout << "largest velocity " << largest << '\n';
+  EXPECT_LT(largest, 1.01);  // as with all sub-steps everywhere
+}
+TEST(LocalAdvection, KeepsVelocitiesInTheirRangeInSprayIn2D) { velocities_stay_in_their_range<2>(6); }
+TEST(LocalAdvection, KeepsVelocitiesInTheirRangeInSprayIn3D) { velocities_stay_in_their_range<3>(2); }
 
 TEST(LocalAdvection, GivesTheSameBitsOnAnyNumberOfThreads) {
   const auto one = jumpy<2>(1), three = jumpy<2>(3);
