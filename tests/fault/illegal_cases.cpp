@@ -168,7 +168,7 @@ std::vector<IllegalCase> run() {
       {"a sweep of more than half a turn", {"cascade"}, "cascade { stages { mesh { hull_sweep_deg: 200 } end { time { duration_s: 1 } } } }",
        "cascade.stages[0].mesh.hull_sweep_deg", "<= 180"},
       {"too coarse for the wave", {"cascade"}, "cascade { stages { mesh { hull_cell_m: 0.005 } end { time { duration_s: 1 } } } } "
-       "wave { regular { height_m: 0.002 } }", "cascade.stages[0].mesh.surface", "give a surface band"},
+       "wave { regular { height_m: 0.002 } }", "cascade.stages[0].mesh.surface", "give hull_cell_m"},
       {"two time steps", {}, "time { steps_per_period: 100 }", "time.steps_per_period", "keep one"},
       {"a time step backwards", {}, "time { dt_s: -0.01 }", "time.dt_s", "> 0"},
       {"no sub-steps", {}, "time { max_substeps: 0 }", "time.max_substeps", "1 to 64"},
